@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# `cmake --install` and find_package(pdsm COMPONENTS format runtime bake).
+include(CMakePackageConfigHelpers)
+set(PDSM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pdsm)
+
+set(PDSM_COMPONENTS format runtime)
+if(PDSM_BUILD_BAKE)
+  list(APPEND PDSM_COMPONENTS bake)
+endif()
+foreach(component IN LISTS PDSM_COMPONENTS)
+  install(TARGETS pdsm_${component} EXPORT pdsm-${component}-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT pdsm-${component}-targets NAMESPACE pdsm:: DESTINATION ${PDSM_CMAKE_DIR})
+  install(DIRECTORY ${component}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN *.h)
+endforeach()
+if(PDSM_BUILD_BAKE)
+  install(TARGETS pdsm RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(cmake/pdsm-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config.cmake
+  INSTALL_DESTINATION ${PDSM_CMAKE_DIR})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/pdsm-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config-version.cmake
+  DESTINATION ${PDSM_CMAKE_DIR})
