@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "faults.h"
+#include "file_layout.h"
+#include "pdsm/format/map_file.h"
+
+/// The steps of reading a file, for the reader (which stops at the first fault) and the checker (which
+/// goes on as far as the parts that hold allow).
+namespace pdsm {
+
+/// Header and chunk table, placement and checksums of all chunks. Entries of chunks whose bytes are
+/// damaged or unknown are left out of `good`, so that no later step touches them.
+struct FileTable {
+  std::vector<TableEntry> entries;  ///< in file order
+  std::vector<bool> good;           ///< checksum holds, type known
+};
+
+/// Empty where header or table are broken, which is added to `faults`.
+[[nodiscard]] std::optional<FileTable> parse_table(std::span<const std::byte> bytes, FaultList& faults);
+
+/// Gets block `block` of image `image` of the map.
+using BlockSink = std::function<void(std::size_t image, std::size_t block, FunctionBlock&&)>;
+
+/// Parses a whole file. The map comes back without blocks; these go to `sink` one by one. Means anything
+/// only while `faults` stays empty.
+[[nodiscard]] PenumbraMap parse_map(std::span<const std::byte> bytes, const ReadLimits& limits,
+                                    FaultList& faults, const BlockSink& sink);
+
+}  // namespace pdsm
