@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pdsm/format/penumbra_map.h"
+
+/// A scene in memory: what casts, what receives, what lights. Right-handed, y up, metres, degrees. Plain
+/// data; read from a scene file (scene_file.h) or filled by a host program. Read-only while baking, then
+/// any thread may read it.
+namespace pdsm {
+
+/// Indexed triangles in their own local space.
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::uvec3> triangles;  ///< indices into positions
+  /// Every edge (after welding equal positions) is shared by two triangles of opposite direction: only
+  /// then "light-facing" is told by the winding, else both sides count. See is_closed().
+  bool closed = false;
+};
+
+/// Whether the triangles form closed, consistently oriented surfaces. O(triangles).
+[[nodiscard]] bool is_closed(const Mesh& mesh);
+
+/// One placed mesh.
+struct Geometry {
+  std::string name;  ///< file, or file:node, for messages
+  std::shared_ptr<const Mesh> mesh;
+  glm::dmat4 local_to_world{1.0};
+  bool casts = true, receives = true;
+  glm::vec3 base_color{0.72F, 0.70F, 0.66F};  ///< linear RGB; pictures only
+};
+
+struct RectLight {
+  double width = 1, height = 1;  ///< metres along light x and y; 0 makes a line or a point
+};
+struct DiskLight {
+  double radius = 0.5;  ///< metres; 0 makes a point
+};
+
+/// A one-sided planar area light.
+struct Light {
+  std::string name;  ///< [A-Za-z0-9_-]+, unique in the scene
+  std::variant<RectLight, DiskLight> shape;
+  glm::dvec3 position{0};          ///< centre, metres
+  glm::dvec3 direction{0, -1, 0};  ///< any length > 0
+  std::optional<glm::dvec3> up;    ///< default [0,1,0], or [0,0,1] within 1 degree of the direction
+  std::optional<std::array<double, 4>> window;  ///< [x0,y0,x1,y1], tangents; default fitted
+  std::optional<double> near_depth, far_depth;  ///< metres; default fitted
+  std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
+  std::optional<std::uint32_t> samples;
+};
+
+struct Scene {
+  std::string source;  ///< path of the scene file, for messages; may be empty
+  std::vector<Geometry> geometry;
+  std::vector<Light> lights;
+  std::uint64_t content_hash = 0;  ///< XXH3 of scene file and all files it names, in order; 0 in memory
+  std::vector<std::string> warnings;
+};
+
+/// World to light space: z = direction, x = normalize(cross(up, z)), y = cross(z, x), origin at the
+/// light's centre. Throws Error (input) on a zero direction or an explicit `up` parallel to it.
+[[nodiscard]] RigidTransform light_frame(const Light& light);
+
+/// p -> R p + t in double.
+[[nodiscard]] inline glm::dvec3 apply(const RigidTransform& transform, const glm::dvec3& p) {
+  const auto& r = transform.rotation;
+  const auto& t = transform.translation;
+  return {r[0] * p.x + r[1] * p.y + r[2] * p.z + t[0], r[3] * p.x + r[4] * p.y + r[5] * p.z + t[1],
+          r[6] * p.x + r[7] * p.y + r[8] * p.z + t[2]};
+}
+
+/// The inverse motion.
+[[nodiscard]] RigidTransform inverse(const RigidTransform& transform);
+
+/// Half extents of the light's shape along light x and y, metres.
+[[nodiscard]] std::array<double, 2> half_extents(const Light& light);
+
+}  // namespace pdsm

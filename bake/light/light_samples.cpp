@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Point sets on planar lights, and the sub-texel jitter of each sample's map.
+//
+// Fibonacci lattice: Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992.
+// Sunflower: Vogel, A better way to construct the sunflower head, 1979.
+// Concentric map: Shirley, Chiu, A Low Distortion Map Between Disk and Square, 1997.
+// R2 sequence: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "pdsm/bake/bake.h"
+
+namespace pdsm {
+namespace {
+
+using Point2 = std::array<double, 2>;
+
+constexpr double kInverseGoldenRatio = 0.61803398874989484820;
+// Powers of the inverse plastic number, the two-dimensional counterpart of the golden ratio.
+constexpr double kInversePlastic = 0.75487766624669276;
+constexpr double kInversePlasticSquared = 0.56984029099805327;
+
+double fraction(double x) { return x - std::floor(x); }
+
+/// Uniform in [0, 1), a pure function of its arguments (SplitMix64's finaliser, twice).
+double hash_uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
+  std::uint64_t x = seed * 0x9E3779B97F4A7C15u + index * 0xD1B54A32D192ED03u + dimension;
+  for (int round = 0; round < 2; ++round) {
+    x += 0x9E3779B97F4A7C15u;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    x ^= x >> 31;
+  }
+  return static_cast<double>(x >> 11) * 0x1.0p-53;
+}
+
+/// Shift of a point set that a seed selects; seed 0 shifts nothing.
+double seed_shift(std::uint64_t seed, std::uint64_t dimension) {
+  return seed == 0 ? 0.0 : hash_uniform(seed, 0, dimension);
+}
+
+Point2 lattice_point(std::uint32_t i, std::uint32_t count, std::uint64_t seed) {
+  return {fraction((i + 0.5) / count + seed_shift(seed, 2)),
+          fraction(0.5 + i * kInverseGoldenRatio + seed_shift(seed, 3))};
+}
+
+/// Point i of `count` in rows of near-equal strata of equal area: exactly n x n strata for count = n².
+/// Row r holds the points floor(r count / rows) .. floor((r + 1) count / rows) - 1 and is as high as they
+/// are many, so every stratum has area 1 / count.
+Point2 jittered_point(std::uint32_t i, std::uint32_t count, std::uint32_t rows, std::uint64_t seed) {
+  const std::uint64_t n = count;
+  std::uint64_t row = (std::uint64_t{i} * rows) / n;
+  while ((row + 1) * n / rows <= i) ++row;
+  const std::uint64_t begin = row * n / rows, end = (row + 1) * n / rows;
+  const double x = (static_cast<double>(i - begin) + hash_uniform(seed, i, 0)) / static_cast<double>(end - begin);
+  const double y = (static_cast<double>(begin) + static_cast<double>(end - begin) * hash_uniform(seed, i, 1)) /
+                   static_cast<double>(n);
+  return {x, y};
+}
+
+Point2 concentric_disk(const Point2& square) {
+  const double a = 2 * square[0] - 1, b = 2 * square[1] - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  const bool wide = std::abs(a) > std::abs(b);
+  const double r = wide ? a : b;
+  const double phi = wide ? std::numbers::pi / 4 * (b / a) : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+Point2 sunflower(std::uint32_t i, std::uint32_t count, std::uint64_t seed) {
+  const double r = std::sqrt((i + 0.5) / count);
+  const double phi = 2 * std::numbers::pi * (i * kInverseGoldenRatio + seed_shift(seed, 2));
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+/// Strata rows for a stratified set on a rectangle; a line light is stratified along its line alone.
+std::uint32_t strata_rows(const RectLight& light, std::uint32_t count) {
+  if (light.height == 0) return 1;
+  if (light.width == 0) return count;
+  return static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(count))));
+}
+
+Point2 sample_shape(const RectLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
+                    std::uint64_t seed) {
+  const Point2 p = points == PointSet::lattice ? lattice_point(i, count, seed)
+                                               : jittered_point(i, count, strata_rows(light, count), seed);
+  // A line along y takes the lattice's even coordinate.
+  const bool swap = points == PointSet::lattice && light.width == 0;
+  return {(p[0] - 0.5) * light.width, (p[swap ? 0 : 1] - 0.5) * light.height};
+}
+
+Point2 sample_shape(const DiskLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
+                    std::uint64_t seed) {
+  const auto rows = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(count))));
+  const Point2 p = points == PointSet::lattice ? sunflower(i, count, seed)
+                                               : concentric_disk(jittered_point(i, count, rows, seed));
+  return {p[0] * light.radius, p[1] * light.radius};
+}
+
+/// In [-0.5, 0.5), 0 for the first sample of seed 0.
+float map_jitter(std::uint32_t i, double alpha, std::uint64_t seed, std::uint64_t dimension) {
+  const auto jitter = static_cast<float>(fraction(0.5 + i * alpha + seed_shift(seed, dimension)) - 0.5);
+  return jitter < 0.5F ? jitter : -0.5F;
+}
+
+}  // namespace
+
+std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t count, PointSet points,
+                                            std::uint64_t seed) {
+  assert(count >= 1);
+  std::vector<LightSample> samples(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    // One sample stands for the whole light at its centre.
+    const Point2 p = count == 1 ? Point2{0, 0} : std::visit([&](const auto& shape) {
+      return sample_shape(shape, i, count, points, seed);
+    }, light.shape);
+    samples[i].position = {p[0], p[1], 0};
+    samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4), map_jitter(i, kInversePlasticSquared, seed, 5)};
+    samples[i].weight = 1;
+  }
+  return samples;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/geometry_import.h"
+
+#include <cmath>
+#include <utility>
+
+#include "pdsm/bake/scene_file.h"
+#include "pdsm/format/error.h"
+
+namespace pdsm {
+namespace {
+
+std::shared_ptr<const Mesh> turned_over(const Mesh& mesh) {
+  auto result = std::make_shared<Mesh>(mesh);
+  for (glm::uvec3& t : result->triangles) std::swap(t.y, t.z);
+  return result;
+}
+
+/// Turns over the triangles of each part that `wanted` picks; parts that shared a mesh still share one.
+template <typename Wanted>
+void turn_over(std::vector<Geometry>& parts, Wanted&& wanted) {
+  std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const Mesh>> turned;
+  for (Geometry& part : parts) {
+    if (!wanted(part)) continue;
+    auto& copy = turned[part.mesh];
+    if (!copy) copy = turned_over(*part.mesh);
+    part.mesh = copy;
+  }
+}
+
+double determinant(const glm::dmat4& m) {
+  return glm::determinant(glm::dmat3(m));
+}
+
+}  // namespace
+
+std::shared_ptr<const Mesh> PartCollector::clean(const Mesh& raw) {
+  return std::make_shared<Mesh>(clean_mesh(raw, file_.left_out));
+}
+
+void PartCollector::add_left_out(const LeftOut& left_out) {
+  file_.left_out.bad_index += left_out.bad_index;
+  file_.left_out.not_finite += left_out.not_finite;
+  file_.left_out.no_area += left_out.no_area;
+}
+
+void PartCollector::add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,
+                        const glm::dmat4& local_to_file, const std::optional<glm::vec3>& base_color) {
+  if (mesh->triangles.empty()) return;
+  const double volume = determinant(local_to_file);
+  if (volume == 0 || !std::isfinite(volume)) {
+    (volume == 0 ? file_.left_out.no_area : file_.left_out.not_finite) += mesh->triangles.size();
+    return;
+  }
+  Geometry part;
+  part.name = node_name;
+  part.mesh = mesh;
+  part.local_to_world = local_to_file;
+  if (base_color) part.base_color = *base_color;
+  file_.parts.push_back(std::move(part));
+}
+
+ImportedFile PartCollector::take() {
+  for (Geometry& part : file_.parts) {
+    const bool named = file_.parts.size() > 1 && !part.name.empty();
+    part.name = named ? file_name_ + ":" + part.name : file_name_;
+  }
+  turn_over(file_.parts, [](const Geometry& part) { return determinant(part.local_to_world) < 0; });
+  return std::move(file_);
+}
+
+void place(std::vector<Geometry>& parts, const glm::dmat4& placement) {
+  for (Geometry& part : parts) part.local_to_world = placement * part.local_to_world;
+  if (determinant(placement) < 0) turn_over(parts, [](const Geometry&) { return true; });
+}
+
+ImportedFile import_file(FileSource& files, const std::filesystem::path& path) {
+  std::string bytes = files.read_unpacked(path);
+  const std::filesystem::path name = has_extension(path, ".gz") ? path.parent_path() / path.stem() : path;
+  if (has_extension(name, ".gltf") || has_extension(name, ".glb")) {
+    return import_gltf(files, name, std::move(bytes));
+  }
+  if (has_extension(name, ".ply")) return import_ply(name, bytes);
+  return import_with_assimp(files, name, std::move(bytes));
+}
+
+std::vector<Geometry> import_geometry(const std::filesystem::path& path) {
+  FileSource files;
+  return import_file(files, path).parts;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pdsm/bake/scene.h"
+#include "scene/file_source.h"
+#include "scene/mesh_cleanup.h"
+
+namespace pdsm {
+
+/// What one geometry file holds.
+struct ImportedFile {
+  std::vector<Geometry> parts;  ///< without triangles: none
+  LeftOut left_out;
+};
+
+/// Reads a geometry file and what it refers to. Throws Error (input) "path: reason".
+[[nodiscard]] ImportedFile import_file(FileSource& files, const std::filesystem::path& path);
+
+/// The same of one kind of file, whose bytes are read already. `name` is the path without .gz.
+[[nodiscard]] ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name,
+                                       std::string bytes);
+[[nodiscard]] ImportedFile import_ply(const std::filesystem::path& name, const std::string& bytes);
+[[nodiscard]] ImportedFile import_with_assimp(FileSource& files, const std::filesystem::path& name,
+                                              std::string bytes);
+
+/// Gathers the parts of a file: meshes under node transforms.
+class PartCollector {
+ public:
+  explicit PartCollector(std::string file_name) : file_name_(std::move(file_name)) {}
+
+  /// Cleans a mesh for any number of parts.
+  [[nodiscard]] std::shared_ptr<const Mesh> clean(const Mesh& raw);
+
+  /// Counts triangles that the file's reader has left out itself.
+  void add_left_out(const LeftOut& left_out);
+
+  /// Adds a part. One without triangles is passed over; one that its node flattens counts as left out.
+  void add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,
+           const glm::dmat4& local_to_file, const std::optional<glm::vec3>& base_color);
+
+  /// Everything gathered; parts are named "file", or "file:node" when there are several.
+  [[nodiscard]] ImportedFile take();
+
+ private:
+  std::string file_name_;
+  ImportedFile file_;
+};
+
+/// Places parts: local_to_world = placement * local_to_world. Where the placement mirrors, triangles are
+/// turned over, so that their fronts stay fronts.
+void place(std::vector<Geometry>& parts, const glm::dmat4& placement);
+
+}  // namespace pdsm

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/tiny_gltf.h"
+
+namespace pdsm {
+
+/// The positions of a VEC3 accessor (float, or normalised or plain 8- and 16-bit integers as in
+/// KHR_mesh_quantization). Throws FormatFault when it does not lie within its buffer.
+[[nodiscard]] std::vector<glm::vec3> read_positions(const tinygltf::Model& model, int accessor);
+
+/// The indices of a SCALAR accessor of unsigned integers. Same faults.
+[[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor);
+
+}  // namespace pdsm

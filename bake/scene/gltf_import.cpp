@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "pdsm/format/error.h"
+#include "scene/format_fault.h"
+#include "scene/geometry_import.h"
+#include "scene/gltf_accessor.h"
+#include "scene/one_line.h"
+#include "scene/tiny_gltf.h"
+
+namespace pdsm {
+namespace {
+
+// What a file may demand of its reader and this one fulfils or may ignore, as only shapes are wanted.
+constexpr std::array kIgnorableExtensions = {"KHR_mesh_quantization", "KHR_texture_transform",
+                                             "KHR_lights_punctual", "EXT_lights_area"};
+
+bool is_image_name(const std::filesystem::path& path) {
+  return std::ranges::any_of(std::array{".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".basis"},
+                             [&](const char* extension) { return has_extension(path, extension); });
+}
+
+/// Lets tinygltf read buffers through FileSource, and finds no image files: pictures are not wanted.
+tinygltf::FsCallbacks file_callbacks(FileSource& files) {
+  tinygltf::FsCallbacks callbacks{};
+  callbacks.FileExists = [](const std::string& name, void*) {
+    std::error_code error;
+    return !is_image_name(name) && std::filesystem::is_regular_file(name, error);
+  };
+  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* to, std::string* fault, const std::string& name,
+                               void* source) {
+    try {
+      const std::string bytes = static_cast<FileSource*>(source)->read(name);
+      to->assign(bytes.begin(), bytes.end());
+      return true;
+    } catch (const Error& error) {
+      if (fault != nullptr) *fault += error.what();
+      return false;
+    }
+  };
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
+  callbacks.user_data = &files;
+  return callbacks;
+}
+
+bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
+                  int, void*) {
+  return true;
+}
+
+tinygltf::Model parse(FileSource& files, const std::filesystem::path& name, const std::string& bytes) {
+  if (bytes.size() > std::numeric_limits<unsigned>::max()) throw FormatFault("is larger than 4 GiB");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(ignore_image, nullptr);
+  loader.SetFsCallbacks(file_callbacks(files));
+  const auto size = static_cast<unsigned>(bytes.size());
+  const std::string folder = name.has_parent_path() ? name.parent_path().string() : ".";
+  const bool binary = bytes.starts_with("glTF");
+  tinygltf::Model model;
+  std::string fault, warning;
+  const bool good =
+      binary ? loader.LoadBinaryFromMemory(&model, &fault, &warning,
+                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
+             : loader.LoadASCIIFromString(&model, &fault, &warning, bytes.data(), size, folder);
+  if (!good) throw FormatFault(fault.empty() ? "is not valid glTF" : fault);
+  return model;
+}
+
+void check_extensions(const tinygltf::Model& model) {
+  for (const std::string& extension : model.extensionsRequired) {
+    const bool ignorable =
+        std::ranges::any_of(kIgnorableExtensions, [&](const char* known) { return extension == known; });
+    // Materials change how a surface looks, not where it is.
+    if (!ignorable && !extension.starts_with("KHR_materials_")) {
+      throw FormatFault("requires the extension " + extension + ": not supported yet");
+    }
+  }
+}
+
+/// Corner numbers of each triangle of a primitive; points and lines have none.
+std::vector<glm::uvec3> make_triangles(const std::vector<std::uint32_t>& indices, int mode) {
+  std::vector<glm::uvec3> triangles;
+  const std::size_t count = indices.size();
+  if (mode == TINYGLTF_MODE_TRIANGLES || mode == -1) {
+    for (std::size_t i = 0; i + 2 < count; i += 3)
+      triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+    // Every second triangle of a strip is wound the other way.
+    for (std::size_t i = 0; i + 2 < count; ++i) {
+      triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
+    }
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      triangles.emplace_back(indices[i], indices[i + 1], indices[0]);
+  }
+  return triangles;
+}
+
+Mesh to_mesh(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  Mesh mesh;
+  const auto position = primitive.attributes.find("POSITION");
+  if (position == primitive.attributes.end()) return mesh;
+  mesh.positions = read_positions(model, position->second);
+  std::vector<std::uint32_t> indices;
+  if (primitive.indices >= 0) {
+    indices = read_indices(model, primitive.indices);
+  } else {
+    indices.resize(mesh.positions.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+  }
+  mesh.triangles = make_triangles(indices, primitive.mode);
+  return mesh;
+}
+
+std::optional<glm::vec3> base_color(const tinygltf::Model& model, int material) {
+  if (material < 0 || static_cast<std::size_t>(material) >= model.materials.size()) return std::nullopt;
+  const auto& factor =
+      model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness.baseColorFactor;
+  if (factor.size() < 3) return std::nullopt;
+  return glm::clamp(glm::vec3(factor[0], factor[1], factor[2]), 0.0F, 1.0F);
+}
+
+glm::dmat4 rotation_matrix(const std::vector<double>& quaternion) {
+  const double length =
+      std::sqrt(std::inner_product(quaternion.begin(), quaternion.end(), quaternion.begin(), 0.0));
+  if (!(length > 0)) return glm::dmat4(1.0);
+  const double x = quaternion[0] / length, y = quaternion[1] / length, z = quaternion[2] / length,
+               w = quaternion[3] / length;
+  return {1 - 2 * (y * y + z * z),
+          2 * (x * y + z * w),
+          2 * (x * z - y * w),
+          0,
+          2 * (x * y - z * w),
+          1 - 2 * (x * x + z * z),
+          2 * (y * z + x * w),
+          0,
+          2 * (x * z + y * w),
+          2 * (y * z - x * w),
+          1 - 2 * (x * x + y * y),
+          0,
+          0,
+          0,
+          0,
+          1};
+}
+
+glm::dmat4 node_matrix(const tinygltf::Node& node) {
+  glm::dmat4 m(1.0);
+  if (node.matrix.size() == 16) {
+    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    return m;
+  }
+  if (node.rotation.size() == 4) m = rotation_matrix(node.rotation);
+  for (int column = 0; column < 3; ++column) {
+    const auto i = static_cast<std::size_t>(column);
+    if (node.scale.size() == 3) m[column] *= node.scale[i];
+    if (node.translation.size() == 3) m[3][column] = node.translation[i];
+  }
+  return m;
+}
+
+/// The nodes to begin with: those of the default scene, or without scenes all that are no one's child.
+std::vector<int> root_nodes(const tinygltf::Model& model) {
+  if (!model.scenes.empty()) {
+    const int scene = std::max(model.defaultScene, 0);
+    if (static_cast<std::size_t>(scene) >= model.scenes.size()) throw FormatFault("scene does not exist");
+    return model.scenes[static_cast<std::size_t>(scene)].nodes;
+  }
+  std::vector<bool> is_child(model.nodes.size(), false);
+  for (const tinygltf::Node& node : model.nodes) {
+    for (const int child : node.children) {
+      if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+        is_child[static_cast<std::size_t>(child)] = true;
+    }
+  }
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
+/// Walks the node hierarchy and hands over each mesh's primitives; a mesh is read once.
+class NodeWalk {
+ public:
+  NodeWalk(const tinygltf::Model& model, PartCollector& parts)
+      : model_(model), parts_(parts), visited_(model.nodes.size(), false), meshes_(model.meshes.size()) {}
+
+  void run() {
+    for (const int root : root_nodes(model_)) open_.emplace_back(root, glm::dmat4(1.0));
+    std::ranges::reverse(open_);
+    while (!open_.empty()) {
+      const auto [index, parent_to_file] = open_.back();
+      open_.pop_back();
+      visit(index, parent_to_file);
+    }
+  }
+
+ private:
+  void visit(int index, const glm::dmat4& parent_to_file) {
+    const auto i = static_cast<std::size_t>(index);
+    if (index < 0 || i >= model_.nodes.size())
+      throw FormatFault(fmt::format("nodes[{}] does not exist", index));
+    if (visited_[i]) throw FormatFault(fmt::format("nodes[{}] has more than one parent", index));
+    visited_[i] = true;
+    const tinygltf::Node& node = model_.nodes[i];
+    const glm::dmat4 node_to_file = parent_to_file * node_matrix(node);
+    if (node.mesh >= 0) add_mesh(node, node_to_file);
+    for (std::size_t child = node.children.size(); child-- > 0;)
+      open_.emplace_back(node.children[child], node_to_file);
+  }
+
+  void add_mesh(const tinygltf::Node& node, const glm::dmat4& node_to_file) {
+    const auto index = static_cast<std::size_t>(node.mesh);
+    if (index >= model_.meshes.size()) throw FormatFault(fmt::format("meshes[{}] does not exist", node.mesh));
+    const tinygltf::Mesh& source = model_.meshes[index];
+    auto& primitives = meshes_[index];
+    for (std::size_t p = 0; p < source.primitives.size(); ++p) {
+      if (primitives.size() == p) primitives.push_back(parts_.clean(to_mesh(model_, source.primitives[p])));
+      parts_.add(node.name.empty() ? source.name : node.name, primitives[p], node_to_file,
+                 base_color(model_, source.primitives[p].material));
+    }
+  }
+
+  const tinygltf::Model& model_;
+  PartCollector& parts_;
+  std::vector<bool> visited_;
+  std::vector<std::vector<std::shared_ptr<const Mesh>>> meshes_;
+  std::vector<std::pair<int, glm::dmat4>> open_;
+};
+
+}  // namespace
+
+ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name, std::string bytes) {
+  PartCollector parts(name.filename().string());
+  try {
+    const tinygltf::Model model = parse(files, name, bytes);
+    check_extensions(model);
+    NodeWalk(model, parts).run();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& fault) {
+    throw Error(Failure::input, name.string(), one_line(fault.what()));
+  }
+  return parts.take();
+}
+
+}  // namespace pdsm

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/read_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "light/light_axes.h"
+#include "scene/json_document.h"
+#include "scene/json_fields.h"
+
+namespace pdsm {
+namespace {
+
+using nlohmann::json;
+
+// As in BakeOptions.
+constexpr std::uint32_t kMaxResolution = 16384;
+constexpr std::uint32_t kMaxSamples = 65536;
+// A wider window spends its texels on grazing light.
+constexpr double kMaxFov = 120;
+
+/// The light's shape by its type; throws unless every key belongs to a light of that type.
+std::variant<RectLight, DiskLight> read_shape(const JsonFields& fields) {
+  const std::string type = fields.text("type");
+  if (type == "rect") {
+    fields.allow_only({"name", "type", "position", "direction", "up", "width", "height", "fov", "window",
+                       "near", "far", "faces", "emission", "resolution", "samples"});
+    return RectLight{fields.not_negative("width"), fields.not_negative("height")};
+  }
+  if (type == "disk") {
+    fields.allow_only({"name", "type", "position", "direction", "up", "radius", "fov", "window", "near",
+                       "far", "faces", "emission", "resolution", "samples"});
+    return DiskLight{fields.not_negative("radius")};
+  }
+  if (type == "sphere" || type == "distant" || type == "mesh") {
+    fields.refuse("type", "lights of type " + type + ": not supported yet");
+  }
+  fields.refuse("type", "must be rect or disk");
+}
+
+void refuse_unsupported(const JsonFields& fields) {
+  if (fields.has("emission")) fields.refuse("emission", "not supported yet");
+  const json* faces = fields.find("faces");
+  if (faces == nullptr || *faces == 1) return;
+  if (*faces == 5 || *faces == 6) fields.refuse("faces", "5 or 6 faces: not supported yet");
+  fields.refuse("faces", "must be 1, 5 or 6");
+}
+
+std::string read_name(const JsonFields& fields, std::size_t index) {
+  if (!fields.has("name")) return fmt::format("light{}", index + 1);
+  std::string name = fields.text("name");
+  // Not isalnum(): what it accepts depends on the locale.
+  const auto is_allowed = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (name.empty() || !std::ranges::all_of(name, is_allowed)) {
+    fields.refuse("name", "must be letters, digits, _ and - (A-Z, a-z, 0-9)");
+  }
+  return name;
+}
+
+std::array<double, 4> read_window(const JsonFields& fields) {
+  const char* reason = "must be [x0,y0,x1,y1], four numbers with x0 < x1 and y0 < y1";
+  const json& value = fields.array("window");
+  if (value.size() != 4 || !std::ranges::all_of(value, is_scene_number)) fields.refuse("window", reason);
+  const std::array<double, 4> w{value[0].get<double>(), value[1].get<double>(), value[2].get<double>(),
+                                value[3].get<double>()};
+  if (!(w[0] < w[2] && w[1] < w[3])) fields.refuse("window", reason);
+  return w;
+}
+
+/// The window that `window` or `fov` gives, if one is there.
+std::optional<std::array<double, 4>> read_view_window(const JsonFields& fields) {
+  if (fields.has("window") && fields.has("fov"))
+    fields.refuse("fov", "must not be given together with window");
+  if (fields.has("window")) return read_window(fields);
+  if (!fields.has("fov")) return std::nullopt;
+  const double fov = fields.number("fov");
+  if (!(fov > 0 && fov <= kMaxFov)) fields.refuse("fov", "must be a number > 0 and <= 120 (degrees)");
+  const double t = std::tan(fov / 2 * (std::numbers::pi / 180));
+  return std::array<double, 4>{-t, -t, t, t};
+}
+
+void read_depths(const JsonFields& fields, Light& light) {
+  if (fields.has("near")) light.near_depth = fields.positive("near");
+  if (fields.has("far")) light.far_depth = fields.positive("far");
+  if (light.near_depth && light.far_depth && !(*light.near_depth < *light.far_depth)) {
+    fields.refuse("near", "must be less than far");
+  }
+}
+
+std::array<std::uint32_t, 2> read_resolution(const JsonFields& fields) {
+  const json& value = *fields.find("resolution");
+  if (!value.is_array()) {
+    const std::uint32_t size = fields.count("resolution", kMaxResolution);
+    return {size, size};
+  }
+  const bool good =
+      value.size() == 2 && is_count(value[0], kMaxResolution) && is_count(value[1], kMaxResolution);
+  if (!good)
+    fields.refuse("resolution", fmt::format("must be R or [w,h], integers from 1 to {}", kMaxResolution));
+  return {static_cast<std::uint32_t>(value[0].get<double>()),
+          static_cast<std::uint32_t>(value[1].get<double>())};
+}
+
+/// Position and axes.
+void read_frame(const JsonFields& fields, Light& light) {
+  light.position = fields.vector("position");
+  light.direction = fields.vector("direction");
+  if (fields.has("up")) light.up = fields.vector("up");
+  switch (frame_fault(light)) {
+    case FrameFault::zero_direction:
+      fields.refuse("direction", "must not be zero");
+    case FrameFault::parallel_up:
+      fields.refuse("up", "must not be zero or parallel to direction");
+    case FrameFault::none:
+      break;
+  }
+}
+
+}  // namespace
+
+Light read_light(const json& node, const std::string& file, std::size_t index) {
+  const JsonFields fields(node, file, join_path("lights", index));
+  Light light;
+  light.shape = read_shape(fields);
+  refuse_unsupported(fields);
+  light.name = read_name(fields, index);
+  read_frame(fields, light);
+  light.window = read_view_window(fields);
+  read_depths(fields, light);
+  if (fields.has("resolution")) light.resolution = read_resolution(fields);
+  if (fields.has("samples")) light.samples = fields.count("samples", kMaxSamples);
+  return light;
+}
+
+}  // namespace pdsm

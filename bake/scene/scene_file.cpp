@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pdsm/bake/scene_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "pdsm/format/error.h"
+#include "scene/file_source.h"
+#include "scene/geometry_import.h"
+#include "scene/json_document.h"
+#include "scene/json_fields.h"
+#include "scene/light_check.h"
+#include "scene/placement.h"
+#include "scene/read_light.h"
+
+namespace pdsm {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A scene file names geometry, it does not hold it; a larger one is something else.
+constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t{64} << 20;
+
+/// Reads one scene file; keeps what several of its entries share.
+class SceneReader {
+ public:
+  explicit SceneReader(fs::path path) : path_(std::move(path)), file_(path_.string()) {}
+
+  Scene read();
+
+ private:
+  void read_geometry(const json& node, std::size_t index);
+  const std::vector<Geometry>& import(const JsonFields& fields);
+  void read_lights(const json& nodes);
+
+  fs::path path_;
+  std::string file_;
+  FileSource files_;
+  std::map<fs::path, std::vector<Geometry>> imported_;
+  Scene scene_;
+};
+
+/// The scale of a placement: a number or one an axis, none of them 0.
+glm::dvec3 read_scale(const JsonFields& fields) {
+  const json* value = fields.find("scale");
+  if (value == nullptr) return glm::dvec3(1);
+  if (!value->is_number() && !value->is_array()) fields.refuse("scale", "must be a number or [x,y,z], not 0");
+  const glm::dvec3 scale = value->is_number() ? glm::dvec3(fields.number("scale")) : fields.vector("scale");
+  // Anything smaller is flat in float.
+  constexpr double kMinScale = 1e-12;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(scale[axis]) >= kMinScale)) fields.refuse("scale", "must be a number or [x,y,z], not 0");
+  }
+  return scale;
+}
+
+/// Semi-opaque casters are refused rather than taken for opaque.
+void check_opacity(const JsonFields& fields) {
+  if (!fields.has("opacity")) return;
+  const double opacity = fields.number("opacity");
+  if (!(opacity >= 0 && opacity <= 1)) fields.refuse("opacity", "must be a number from 0 to 1");
+  if (opacity != 1) fields.refuse("opacity", "other than 1: not supported yet");
+}
+
+const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
+  const std::string name = fields.text("file");
+  if (name.empty() || name.find('\0') != std::string::npos) fields.refuse("file", "must name a file");
+  const fs::path path = path_.parent_path() / fs::path(name);
+  const auto known = imported_.find(path);
+  if (known != imported_.end()) return known->second;
+  try {
+    ImportedFile file = import_file(files_, path);
+    const std::string left_out = describe(file.left_out);
+    if (!left_out.empty()) scene_.warnings.push_back(name + ": " + left_out);
+    return imported_.emplace(path, std::move(file.parts)).first->second;
+  } catch (const Error& fault) {
+    throw Error(fault.failure(), file_ + ":" + fields.path_of("file"), fault.what());
+  }
+}
+
+void SceneReader::read_geometry(const json& node, std::size_t index) {
+  const JsonFields fields(node, file_, join_path("geometry", index));
+  fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity"});
+  check_opacity(fields);
+  const auto vector_or_zero = [&](const char* key) {
+    return fields.has(key) ? fields.vector(key) : glm::dvec3(0);
+  };
+  const glm::dmat4 placement =
+      placement_matrix(read_scale(fields), vector_or_zero("rotate"), vector_or_zero("translate"));
+  const bool casts = !fields.has("casts") || fields.boolean("casts");
+  const bool receives = !fields.has("receives") || fields.boolean("receives");
+  std::vector<Geometry> parts = import(fields);
+  place(parts, placement);
+  for (Geometry& part : parts) {
+    part.casts = casts;
+    part.receives = receives;
+    scene_.geometry.push_back(std::move(part));
+  }
+}
+
+void SceneReader::read_lights(const json& nodes) {
+  std::map<std::string, std::size_t> names;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Light light = read_light(nodes[i], file_, i);
+    const auto [other, fresh] = names.emplace(light.name, i);
+    if (!fresh) {
+      throw Error(Failure::input, file_ + ":" + join_path(join_path("lights", i), "name"),
+                  "\"" + light.name + "\" is the name of " + join_path("lights", other->second) + " too");
+    }
+    scene_.lights.push_back(std::move(light));
+  }
+}
+
+Scene SceneReader::read() {
+  if (has_extension(path_, ".gltf") || has_extension(path_, ".glb")) {
+    throw Error(Failure::input, file_, "a glTF file as the scene: not supported yet");
+  }
+  const json root = parse_json(files_.read(path_, kMaxSceneFileBytes), file_);
+  const JsonFields fields(root, file_, "");
+  fields.allow_only({"geometry", "volumes", "lights"});
+  scene_.source = file_;
+  if (fields.has("volumes") && !fields.array("volumes").empty())
+    fields.refuse("volumes", "not supported yet");
+  // Lights first: their faults are told before large files are read.
+  if (fields.has("lights")) read_lights(fields.array("lights"));
+  if (fields.has("geometry")) {
+    const json& nodes = fields.array("geometry");
+    for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
+  }
+  for (const Light& light : scene_.lights) warn_if_inside(scene_, light);
+  scene_.content_hash = files_.content_hash();
+  return std::move(scene_);
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path) {
+  return SceneReader(path).read();
+}
+
+}  // namespace pdsm
