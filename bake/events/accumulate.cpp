@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "events/accumulate.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pdsm {
+
+void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events) {
+  // Slot t + 2 counts texel t; after the running sum, slot t + 1 is where texel t's next key goes, and
+  // once all are placed, slot t + 1 has become texel t's end.
+  events.first.assign(texel_count + 2, 0);
+  for (const EventLog* log : logs) {
+    log->for_each([&](PackedEvent event) { ++events.first[event_texel(event) + 2]; });
+  }
+  for (std::size_t t = 2; t < events.first.size(); ++t) events.first[t] += events.first[t - 1];
+  events.keys.resize(events.first.back());
+  for (const EventLog* log : logs) {
+    log->for_each([&](PackedEvent event) { events.keys[events.first[event_texel(event) + 1]++] = event_key(event); });
+  }
+  events.first.pop_back();
+}
+
+void accumulate(std::span<EventKey> keys, StepFunction& function) {
+  std::sort(keys.begin(), keys.end());
+  function.depth.clear();
+  function.count.clear();
+  std::uint32_t blocked = 0;
+  for (std::size_t n = 0; n < keys.size();) {
+    const float depth = key_depth(keys[n]);
+    const std::uint32_t before = blocked;
+    for (; n < keys.size() && key_depth(keys[n]) == depth; ++n) blocked += key_unblocks(keys[n]) ? ~0u : 1u;
+    if (blocked == before) continue;
+    function.depth.push_back(depth);
+    function.count.push_back(blocked);
+  }
+}
+
+}  // namespace pdsm

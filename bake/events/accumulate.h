@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "events/event_log.h"
+
+namespace pdsm {
+
+/// A step function of depth: 0 up to the first depth, then count[n] / N on (depth[n], depth[n + 1]].
+/// Depths increase strictly, neighbouring counts differ. Exact.
+struct StepFunction {
+  std::vector<float> depth;
+  std::vector<std::uint32_t> count;
+};
+
+/// Events of a block, gathered by texel: texel t owns keys[first[t]] .. keys[first[t + 1] - 1].
+struct BlockEvents {
+  std::vector<std::uint32_t> first;
+  std::vector<EventKey> keys;
+};
+
+/// Gathers the events that several threads logged for one block of `texel_count` texels. Counting sort:
+/// the order within a texel is not defined (see accumulate()).
+void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events);
+
+/// Sorts the keys of one texel and sums them up in integers. Events at one depth are applied together, so
+/// the result depends on the set of events alone. Replaces the contents of `function`.
+void accumulate(std::span<EventKey> keys, StepFunction& function);
+
+}  // namespace pdsm

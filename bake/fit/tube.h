@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "events/accumulate.h"
+#include "fit/fit_rules.h"
+
+/// The tube that a fitted function has to stay in:
+///   min over |s| <= delta of V(z + s) - epsilon  <=  V'(z)  <=  max over |s| <= delta of V(z + s) + epsilon
+/// on the grid of depth codes, in scaled value codes. V is a step function, so both bounds are steps.
+/// They are rounded inwards to whole codes: a function within this tube is within the real one.
+namespace pdsm {
+
+/// low <= V' <= high for depth codes in [begin, begin of the next run]; the last run never ends.
+struct TubeRun {
+  std::int64_t begin = 0, low = 0, high = 0;
+};
+
+/// Room to work in; keep one a thread.
+struct TubeWorkspace {
+  std::vector<std::int64_t> opens, closes;      ///< of each segment of V
+  std::vector<std::uint32_t> least, greatest;   ///< monotone queues of segments
+};
+
+/// The tube of V. Beyond its last step V is held, as the domain rule asks. O(steps).
+void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspace& room,
+                std::vector<TubeRun>& tube);
+
+}  // namespace pdsm

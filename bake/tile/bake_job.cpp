@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/bake_job.h"
+
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "pdsm/format/error.h"
+#include "walk/ray_path.h"
+
+namespace pdsm {
+namespace {
+
+/// Allowance for the rounding of traced depths, as a share of far: 16 float steps.
+constexpr double kDepthRounding = 0x1.0p-20;
+/// The default bias in map texel footprints at far. The slope of each hit is allowed for by itself, so this
+/// only has to hold the depth tolerance and what curved surfaces add.
+constexpr double kBiasFootprints = 0.25;
+/// The default depth tolerance as a share of the bias.
+constexpr double kToleranceShare = 0.25;
+/// Geometry up to this share of near is the emitter's, and near is at least this share of far.
+constexpr double kEmitterShare = 1e-4;
+constexpr double kClipSlack = 1e-5;
+constexpr std::uint32_t kMostSamples = 65536, kMostTexels = 16384;
+
+void require(bool holds, const char* option, const std::string& reason) {
+  if (!holds) throw Error(Failure::usage, option, reason);
+}
+
+bool is_length(const std::optional<double>& x) { return !x || (std::isfinite(*x) && *x >= 0); }
+
+void check_options(const BakeOptions& o) {
+  const auto is_size = [](std::uint32_t n) { return n >= 1 && n <= kMostTexels; };
+  require(o.samples >= 1 && o.samples <= kMostSamples, "--samples", "must be from 1 to 65536");
+  require(o.light_samples.size() <= kMostSamples, "--samples", "must be from 1 to 65536");
+  require(is_size(o.width) && is_size(o.height), "--resolution", "must be from 1 to 16384 texels");
+  require(is_size(o.map_width) && is_size(o.map_height), "--map-resolution", "must be from 1 to 16384 texels");
+  require(o.epsilon >= 0 && o.epsilon < 1, "--epsilon", "must be from 0 to below 1");
+  require(is_length(o.depth_tolerance), "--depth-tolerance", "must be 0 or more metres");
+  require(is_length(o.bias), "--bias", "must be 0 or more metres");
+  require(o.tile % kBlockSize == 0, "--tile", "must be a multiple of 64");
+  require(o.threads <= 1024, "--threads", "must be at most 1024");
+}
+
+BakeOptions fill_in(const Light& light, BakeOptions o) {
+  (void)light;
+  if (o.map_width == 0) o.map_width = o.width;
+  if (o.map_height == 0) o.map_height = o.height;
+  check_options(o);
+  if (o.threads == 0) o.threads = static_cast<std::uint32_t>(std::max(1, omp_get_num_procs()));
+  o.isa = choose_isa(o.isa);
+  if (!o.light_samples.empty()) o.samples = static_cast<std::uint32_t>(o.light_samples.size());
+  return o;
+}
+
+std::uint64_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void check_samples(const std::vector<LightSample>& samples, const View& view) {
+  for (const LightSample& sample : samples) {
+    const bool good = std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
+                      std::isfinite(sample.position[2]) && sample.position[2] < view.near_depth;
+    require(good, "light samples", "must be finite and in front of near");
+  }
+}
+
+/// Depth before which no caster is in the way. A fitted near is the nearest caster's in the hull, unless it
+/// was raised to its floor; before any other near, casters still count.
+double caster_clip_depth(const FittedView& fitted) {
+  const double near = fitted.view.near_depth, floor = kEmitterShare * fitted.view.far_depth;
+  return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack) : kEmitterShare * near;
+}
+
+/// A share of the map texel footprint at far, the larger of both axes.
+double default_bias(const MapGrid& grid) {
+  return kBiasFootprints * std::max(grid.pitch[0], grid.pitch[1]) * grid.far_depth;
+}
+
+}  // namespace
+
+BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
+    : options(fill_in(light, wanted)),
+      fitted(fit_view(scene, light, options.width, options.height)),
+      samples(options.light_samples.empty()
+                  ? make_light_samples(light, options.samples, options.points, options.seed)
+                  : options.light_samples),
+      grid(make_map_grid(fitted.view, options.map_width, options.map_height)) {
+  check_samples(samples, fitted.view);
+  bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
+  rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
+                         options.depth_tolerance.value_or(kToleranceShare * bias));
+  depth_tolerance = rules.tolerance;
+  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile});
+  const double start = omp_get_wtime();
+  light_space = to_light_space(scene, fitted.view.world_to_view);
+  embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
+  seconds_bvh = omp_get_wtime() - start;
+  resident_after_bvh = resident_bytes();
+}
+
+TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
+  TileInput input{*embree, grid, {}, true, options.walk, options.receivers, bias, rules, options.threads,
+                  fitted.nothing_casts, bound_samples(samples), caster_clip_depth(fitted), kDepthRounding * grid.far_depth};
+  for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
+  input.shift_law = std::all_of(samples.begin(), samples.end(), obeys_shift_law);
+  return input;
+}
+
+std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
+  const bool planar = std::all_of(job.samples.begin(), job.samples.end(), obeys_shift_law);
+  const FittedView& fitted = job.fitted;
+  const auto bits = [](std::uint32_t n) { return std::to_string(n) + " bits"; };
+  const VertexCoding& coding = job.rules.coding;
+  std::vector<ModelledFeature> list;
+  list.push_back({"shadow maps", !fitted.nothing_casts,
+                  fitted.nothing_casts ? "no caster lies between light and window" : "casters lie between light and window"});
+  list.push_back({"general scan conversion", !planar,
+                  planar ? "all light samples lie in the light's plane: one walk serves all rays"
+                         : "light samples lie out of the light's plane"});
+  list.push_back({"transmittance", false, "all casters are opaque: events are counted in integers"});
+  list.push_back({"volumes", false, "the scene has none"});
+  list.push_back({"colour", false, "the light and all casters are grey: one channel"});
+  list.push_back({"faces", false, "one view holds the window"});
+  list.push_back({"domain ends", job.options.receivers != Receivers::all,
+                  job.options.receivers != Receivers::all ? "functions end at the last receiver on each ray"
+                                                          : "--receivers all asks for functions exact to far"});
+  list.push_back({"fitted window", fitted.window_fitted, fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
+  list.push_back({"fitted near", fitted.near_fitted, fitted.near_fitted ? "nearest caster in the hull of light and window" : "given by the scene"});
+  list.push_back({"fitted far", fitted.far_fitted, fitted.far_fitted ? "last receiver in the window" : "given by the scene"});
+  list.push_back({"depths of 32 bits", coding.depth_bits == 32, "the depth tolerance needs " + bits(coding.depth_bits)});
+  list.push_back({"values beyond 8 bits", coding.value_bits > 8, "epsilon needs " + bits(coding.value_bits)});
+  return list;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "pdsm/bake/bake.h"
+#include "tile/bake_tile.h"
+#include "trace/embree_scene.h"
+#include "trace/light_space.h"
+
+namespace pdsm {
+
+/// Everything between the options and the first tile, made once: light-space scene, BVH, samples, view,
+/// grid, bias, fit rules, plan. Bakes and predictions start from it.
+class BakeJob {
+ public:
+  BakeJob(const Scene& scene, const Light& light, const BakeOptions& options);
+
+  /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
+  [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;
+
+  BakeOptions options;  ///< with all defaults filled in
+  FittedView fitted;
+  std::vector<LightSample> samples;
+  MapGrid grid;
+  double bias = 0, depth_tolerance = 0;
+  FitRules rules;
+  TilePlan plan;
+  LightSpaceScene light_space;
+  std::unique_ptr<EmbreeScene> embree;
+  double seconds_bvh = 0;
+  std::uint64_t resident_after_bvh = 0;
+};
+
+/// What was modelled and what was left out, with the reasons.
+[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeJob& job);
+
+}  // namespace pdsm

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/bake_tile.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <xmmintrin.h>
+
+#include "events/accumulate.h"
+#include "events/event_log.h"
+#include "fit/fit_function.h"
+#include "tile/parallel_failure.h"
+#include "tile/shadow_cells.h"
+#include "trace/domain_ends.h"
+#include "walk/general_walk.h"
+#include "walk/ray_packets.h"
+#include "walk/shift_walk.h"
+
+namespace pdsm {
+namespace {
+
+/// Flush-to-zero and denormals-are-zero: the same arithmetic in every thread, as Embree wants it.
+constexpr unsigned kFlushDenormals = 0x8040;
+
+/// One block of the tile, with all that its rays need.
+struct TileBlock {
+  TexelRect rect;                     ///< texels of the map
+  std::uint32_t index = 0;            ///< in the map
+  std::vector<float> domain_ends;
+  std::vector<RayPacket> packets;     ///< by the shift law only
+};
+
+/// What one thread owns while walking.
+struct WalkThread {
+  SampleMap map;
+  PacketMask mask;
+  ShiftWalk shift;
+  std::vector<WalkStep> steps;
+  std::vector<EventLog> logs;  ///< one a block
+  SlopeBiasStatistics slope_bias;
+  TileStatistics statistics;
+};
+
+std::vector<TileBlock> cut_blocks(const TileInput& input, const TexelRect& tile) {
+  const auto edge = static_cast<std::int32_t>(kBlockSize);
+  const std::uint32_t across = (input.grid.texels[0] + kBlockSize - 1) / kBlockSize;
+  std::vector<TileBlock> blocks;
+  for (std::int32_t y = tile.y0; y < tile.y1; y += edge) {
+    for (std::int32_t x = tile.x0; x < tile.x1; x += edge) {
+      TileBlock block;
+      block.rect = {x, y, std::min(x + edge, tile.x1), std::min(y + edge, tile.y1)};
+      block.index = static_cast<std::uint32_t>(y / edge) * across + static_cast<std::uint32_t>(x / edge);
+      blocks.push_back(std::move(block));
+    }
+  }
+  return blocks;
+}
+
+std::size_t texel_count(const TexelRect& rect) {
+  return static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0);
+}
+
+void prepare_block(const TileInput& input, TileBlock& block) {
+  block.domain_ends.assign(texel_count(block.rect), std::numeric_limits<float>::infinity());
+  if (input.receivers != Receivers::all) find_domain_ends(input.scene, input.grid, block.rect, block.domain_ends);
+}
+
+/// Leaves out the packets of rays that nothing can darken.
+void make_packets(const TileInput& input, const ShadowCells& cells, TileBlock& block) {
+  block.packets = make_ray_packets(input.grid, block.rect, block.domain_ends);
+  const auto width = static_cast<std::uint32_t>(block.rect.x1 - block.rect.x0);
+  std::erase_if(block.packets, [&](const RayPacket& packet) {
+    for (std::uint32_t lane = 0; lane < RayPacket::kLanes && packet.domain_end[lane] >= 0; ++lane) {
+      const auto x = block.rect.x0 - cells.tile.x0 + static_cast<std::int32_t>(packet.texel[lane] % width);
+      const auto y = block.rect.y0 - cells.tile.y0 + static_cast<std::int32_t>(packet.texel[lane] / width);
+      if (cells.may_darken(x / kCellSize, y / kCellSize)) return false;
+    }
+    return true;
+  });
+}
+
+/// A ray of the exact walk passes a map texel within half a texel of its centre.
+constexpr double kWalkReach = 0.5;
+/// The midpoint walk strays up to half a texel more across its major axis.
+constexpr double kMidpointReach = 0.5;
+/// Bilinear look-ups ask a ray about points up to a texel beside it, a third of a texel on average. This
+/// share of a PDSM texel balances false shadow against leaks on the dragon's own surface (docs/maths.md).
+constexpr double kFilterReach = 0.25;
+
+MapBias sample_bias(const TileInput& input, const LightSample& sample) {
+  MapBias bias{input.bias, {}};
+  for (std::size_t a = 0; a < 2; ++a) bias.reach[a] = kWalkReach + kFilterReach * input.grid.ratio[a].maps_per_texel();
+  if (input.walk == Walk::exact) return bias;
+  const RayPath path = make_ray_path(input.grid, sample, 0, 0);
+  const bool x_major = std::abs(path.slope[0]) >= std::abs(path.slope[1]);
+  if (!input.shift_law || !x_major) bias.reach[0] += kMidpointReach;
+  if (!input.shift_law || x_major) bias.reach[1] += kMidpointReach;
+  return bias;
+}
+
+/// The rows of a tile that strip `n` of `count` covers, whole blocks.
+TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count) {
+  const auto edge = static_cast<std::int32_t>(kBlockSize);
+  const std::int64_t rows = (tile.y1 - tile.y0 + edge - 1) / edge;
+  TexelRect strip = tile;
+  strip.y0 = tile.y0 + static_cast<std::int32_t>(rows * n / count) * edge;
+  strip.y1 = std::min(tile.y1, tile.y0 + static_cast<std::int32_t>(rows * (n + 1) / count) * edge);
+  return strip;
+}
+
+/// Traces what the rays of a strip look at in the map of one sample. By the shift law, only cells that may
+/// be darkened are looked at.
+void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip, const ShadowCells& cells,
+                 WalkThread& thread) {
+  const MapBias bias = sample_bias(input, sample);
+  const std::uint32_t interleave = input.grid.ratio[0].fine;
+  if (!input.shift_law) {
+    thread.map.reset(general_footprint(input.grid, sample, strip), interleave);
+    thread.statistics.rays += trace_sample_map(input.scene, input.grid, sample, bias, nullptr, thread.map, thread.slope_bias);
+    return;
+  }
+  thread.shift.list(input.grid, sample, input.walk);
+  thread.map.reset(thread.shift.footprint(strip), interleave);
+  thread.mask.reset(thread.map.rect());
+  const std::int32_t first = (strip.y0 - cells.tile.y0) / kCellSize, last = (strip.y1 - 1 - cells.tile.y0) / kCellSize;
+  for (std::int32_t y = first; y <= last; ++y) {
+    for (std::int32_t x = 0; x < cells.across; ++x) {
+      if (cells.may_darken(x, y)) thread.shift.want_packets(cells.cell_rect(x, y), thread.mask);
+    }
+  }
+  thread.statistics.rays += trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map, thread.slope_bias);
+  thread.shift.bind(thread.map);
+}
+
+/// Walks all rays of a strip through the map of one sample.
+void walk_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+                const std::vector<TileBlock>& blocks, WalkThread& thread) {
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const TileBlock& block = blocks[b];
+    if (block.rect.y0 < strip.y0 || block.rect.y0 >= strip.y1) continue;
+    if (input.shift_law) thread.shift.walk(thread.map, block.packets, thread.logs[b]);
+    else walk_general(input.grid, sample, input.walk, thread.map, block.rect, block.domain_ends, thread.steps, thread.logs[b]);
+  }
+}
+
+void process_sample(const TileInput& input, const LightSample& sample, const TexelRect& strip, const ShadowCells& cells,
+                    const std::vector<TileBlock>& blocks, WalkThread& thread) {
+  const double start = omp_get_wtime();
+  trace_strip(input, sample, strip, cells, thread);
+  const double traced = omp_get_wtime();
+  walk_strip(input, sample, strip, blocks, thread);
+  thread.statistics.trace += traced - start;
+  thread.statistics.walk += omp_get_wtime() - traced;
+}
+
+/// Depth code of a domain end, rounded up.
+std::uint32_t end_code(const FitRules& rules, float end) {
+  const double code = std::ceil(rules.code_of(end)), max = rules.coding.depth_max();
+  return static_cast<std::uint32_t>(std::clamp(code, 0.0, max));
+}
+
+/// What one thread owns while fitting.
+struct FitThread {
+  BlockEvents events;
+  StepFunction function;
+  FitWorkspace room;
+  std::vector<FunctionVertex> vertices;
+  TileStatistics statistics;
+};
+
+void append_function(const VertexCoding& coding, const std::vector<FunctionVertex>& vertices, FunctionBlock& block) {
+  const std::size_t words = coding.words_per_vertex();
+  for (const FunctionVertex& vertex : vertices) {
+    block.words.resize(block.words.size() + words);
+    pack_vertex(coding, vertex, block.words.data() + block.words.size() - words);
+  }
+  block.first.push_back(static_cast<std::uint32_t>(block.words.size() / words));
+}
+
+/// Sums up and fits all functions of one block.
+FunctionBlock fit_block(const TileInput& input, const TileBlock& block, std::span<const EventLog* const> logs,
+                        FitThread& thread) {
+  const double start = omp_get_wtime();
+  const auto texels = static_cast<std::uint32_t>(texel_count(block.rect));
+  gather_events(logs, texels, thread.events);
+  double accumulated = omp_get_wtime() - start;
+  FunctionBlock functions;
+  functions.first.reserve(texels + std::size_t{1});
+  functions.first.push_back(0);
+  for (std::uint32_t t = 0; t < texels; ++t) {
+    const std::size_t first = thread.events.first[t], last = thread.events.first[t + 1];
+    thread.vertices.clear();
+    if (first != last) {
+      const double before = omp_get_wtime();
+      accumulate(std::span(thread.events.keys).subspan(first, last - first), thread.function);
+      accumulated += omp_get_wtime() - before;
+      fit_function(thread.function, input.rules, thread.room, thread.vertices);
+    }
+    thread.statistics.empty_texels += thread.vertices.empty() ? 1 : 0;
+    thread.statistics.pieces += thread.vertices.size();
+    append_function(input.rules.coding, thread.vertices, functions);
+  }
+  if (input.receivers != Receivers::all) {
+    for (const float end : block.domain_ends) functions.domain_end.push_back(end_code(input.rules, end));
+  }
+  thread.statistics.events += thread.events.keys.size();
+  thread.statistics.accumulate += accumulated;
+  thread.statistics.fit += omp_get_wtime() - start - accumulated;
+  return functions;
+}
+
+/// Share of a tile's work that its walks are, for progress.
+constexpr double kWalkShare = 0.85;
+
+class TileJob {
+ public:
+  TileJob(const TileInput& input, const TexelRect& tile, std::uint32_t strips, std::uint64_t event_limit,
+          const BlockSink& sink, const TileProgress& progress)
+      : input_(input), tile_(tile), strips_(strips), sink_(sink), progress_(progress), budget_(event_limit),
+        blocks_(cut_blocks(input, tile)), walkers_(input.threads) {
+    for (WalkThread& walker : walkers_) {
+      for (std::size_t b = 0; b < blocks_.size(); ++b) walker.logs.emplace_back(&budget_);
+    }
+  }
+
+  TileOutcome run(TileStatistics& statistics) {
+    prepare();
+    if (!input_.nothing_casts) walk();
+    if (cancelled_) return TileOutcome::cancelled;
+    if (budget_.exceeded()) return TileOutcome::events_exceeded;
+    fit(statistics);
+    for (const WalkThread& walker : walkers_) {
+      statistics.add(walker.statistics);
+      statistics.slope_bias_sum += walker.slope_bias.sum;
+      statistics.slope_bias_max = std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
+    }
+    statistics.event_bytes = std::max(statistics.event_bytes, budget_.used());
+    return cancelled_ ? TileOutcome::cancelled : TileOutcome::done;
+  }
+
+ private:
+  void prepare() {
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b) failure_.guard([&] { prepare_block(input_, blocks_[b]); });
+    failure_.rethrow();
+    if (input_.nothing_casts || !input_.shift_law) return;
+    const ShadowCellInput cell_input{input_.scene.geometry(), input_.grid, input_.light_bounds, input_.clip_depth,
+                                     input_.depth_rounding, input_.threads};
+    cells_ = find_shadow_cells(cell_input, tile_, [this](std::int32_t i, std::int32_t j) { return domain_end(i, j); });
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b) failure_.guard([&] { make_packets(input_, cells_, blocks_[b]); });
+    failure_.rethrow();
+  }
+
+  [[nodiscard]] float domain_end(std::int32_t i, std::int32_t j) const {
+    const auto edge = static_cast<std::int32_t>(kBlockSize);
+    const std::int32_t across = (tile_.x1 - tile_.x0 + edge - 1) / edge;
+    const TileBlock& block = blocks_[static_cast<std::size_t>((j - tile_.y0) / edge * across + (i - tile_.x0) / edge)];
+    return block.domain_ends[static_cast<std::size_t>((j - block.rect.y0) * (block.rect.x1 - block.rect.x0) + i - block.rect.x0)];
+  }
+
+  void walk() {
+    const std::size_t tasks = input_.samples.size() * strips_;
+    std::atomic<std::size_t> done = 0;
+#pragma omp parallel num_threads(static_cast<int>(input_.threads))
+    {
+      const unsigned control = _mm_getcsr();
+      _mm_setcsr(control | kFlushDenormals);
+      WalkThread& thread = walkers_[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(dynamic)
+      for (std::size_t task = 0; task < tasks; ++task) {
+        if (cancelled_ || budget_.exceeded()) continue;
+        failure_.guard([&] {
+          const TexelRect strip = cut_strip(tile_, static_cast<std::uint32_t>(task % strips_), strips_);
+          if (strip.y0 < strip.y1) process_sample(input_, input_.samples[task / strips_], strip, cells_, blocks_, thread);
+        });
+        report(kWalkShare * static_cast<double>(++done) / static_cast<double>(tasks));
+      }
+      _mm_setcsr(control);
+    }
+    failure_.rethrow();
+  }
+
+  void fit(TileStatistics& statistics) {
+    std::vector<FitThread> fitters(input_.threads);
+    std::atomic<std::size_t> done = 0;
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (cancelled_) continue;
+      failure_.guard([&] { fit_and_hand_over(b, fitters[static_cast<std::size_t>(omp_get_thread_num())]); });
+      report(kWalkShare + (1 - kWalkShare) * static_cast<double>(++done) / static_cast<double>(blocks_.size()));
+    }
+    failure_.rethrow();
+    for (const FitThread& thread : fitters) statistics.add(thread.statistics);
+  }
+
+  void fit_and_hand_over(std::size_t b, FitThread& thread) {
+    std::vector<const EventLog*> logs;
+    for (const WalkThread& walker : walkers_) logs.push_back(&walker.logs[b]);
+    const TileBlock& block = blocks_[b];
+    FunctionBlock functions = fit_block(input_, block, logs, thread);
+    for (WalkThread& walker : walkers_) walker.logs[b].clear();
+    const double start = omp_get_wtime();
+    sink_(block.index, static_cast<std::uint32_t>(block.rect.x1 - block.rect.x0),
+          static_cast<std::uint32_t>(block.rect.y1 - block.rect.y0), std::move(functions));
+    thread.statistics.fit += omp_get_wtime() - start;
+  }
+
+  void report(double share) {
+    if (omp_get_thread_num() == 0 && progress_ && progress_(share)) cancelled_ = true;
+  }
+
+  const TileInput& input_;
+  const TexelRect tile_;
+  const std::uint32_t strips_;
+  const BlockSink& sink_;
+  const TileProgress& progress_;
+  EventBudget budget_;
+  std::vector<TileBlock> blocks_;
+  ShadowCells cells_;
+  std::vector<WalkThread> walkers_;
+  std::atomic<bool> cancelled_ = false;
+  ParallelFailure failure_;
+};
+
+}  // namespace
+
+void TileStatistics::add(const TileStatistics& other) {
+  trace += other.trace;
+  walk += other.walk;
+  accumulate += other.accumulate;
+  fit += other.fit;
+  rays += other.rays;
+  events += other.events;
+  pieces += other.pieces;
+  empty_texels += other.empty_texels;
+  event_bytes = std::max(event_bytes, other.event_bytes);
+  slope_bias_sum += other.slope_bias_sum;
+  slope_bias_max = std::max(slope_bias_max, other.slope_bias_max);
+}
+
+TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips, std::uint64_t event_limit,
+                      const BlockSink& sink, const TileProgress& progress, TileStatistics& statistics) {
+  return TileJob(input, tile, strips, event_limit, sink, progress).run(statistics);
+}
+
+}  // namespace pdsm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fit/fit_rules.h"
+#include "pdsm/bake/bake.h"
+#include "tile/shadow_cells.h"
+#include "tile/tile_plan.h"
+#include "trace/embree_scene.h"
+
+namespace pdsm {
+
+/// All that a tile depends on; the same for all tiles of a bake.
+struct TileInput {
+  const EmbreeScene& scene;
+  MapGrid grid;
+  std::vector<LightSample> samples;
+  bool shift_law = true;          ///< all samples obey it
+  Walk walk = Walk::exact;
+  Receivers receivers = Receivers::volume;
+  double bias = 0;                ///< metres
+  FitRules rules;
+  std::uint32_t threads = 1;
+  bool nothing_casts = false;     ///< every function is empty: trace no maps
+  LightBounds light_bounds;       ///< of all samples of the bake
+  double clip_depth = 0;          ///< casters before this depth are out of the hull of light and window
+  double depth_rounding = 0;      ///< metres: what traced depths may be off
+};
+
+/// What a tile did; sums over its threads.
+struct TileStatistics {
+  double trace = 0, walk = 0, accumulate = 0, fit = 0;  ///< thread seconds
+  std::uint64_t rays = 0, events = 0, pieces = 0, empty_texels = 0, event_bytes = 0;
+  double slope_bias_sum = 0, slope_bias_max = 0;
+
+  void add(const TileStatistics& other);
+};
+
+/// Takes finished blocks: index of the block in the map, its size in texels, its functions. Called from
+/// several threads at once, once a block.
+using BlockSink = std::function<void(std::uint32_t block, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions)>;
+
+/// Called from one thread while a tile is baked: share done 0..1. Returns true to cancel.
+using TileProgress = std::function<bool(double share)>;
+
+enum class TileOutcome { done, events_exceeded, cancelled };
+
+/// Bakes the functions of `tile`: a pure function of its arguments. Nothing is given to `sink` when events
+/// exceed `event_limit` bytes; what a cancelled tile has given is incomplete.
+[[nodiscard]] TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips,
+                                    std::uint64_t event_limit, const BlockSink& sink, const TileProgress& progress,
+                                    TileStatistics& statistics);
+
+}  // namespace pdsm

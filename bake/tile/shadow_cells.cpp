@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/shadow_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pdsm {
+namespace {
+
+/// Widening of a triangle's reach in map texels: a walk reads texels whose centres are up to one texel off.
+constexpr double kTexelReach = 1.01;
+/// From so many cells on, it pays to ask for each cell whether the triangle's plane is crossed at all.
+constexpr std::int64_t kManyCells = 8;
+
+/// A triangle in front of clip_depth: 3 or 4 corners, or none.
+struct ClippedTriangle {
+  glm::dvec3 corner[4];
+  int count = 0;
+};
+
+ClippedTriangle clip_front(const LightSpaceMesh& mesh, const glm::uvec3& t, double clip_depth) {
+  const glm::dvec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+  ClippedTriangle result;
+  for (int n = 0; n < 3; ++n) {
+    const glm::dvec3 &a = p[n], &b = p[(n + 1) % 3];
+    if (a.z >= clip_depth) result.corner[result.count++] = a;
+    if ((a.z >= clip_depth) != (b.z >= clip_depth)) {
+      result.corner[result.count++] = a + (b - a) * ((clip_depth - a.z) / (b.z - a.z));
+    }
+  }
+  return result;
+}
+
+/// Cells, half-open.
+struct CellRange {
+  std::int64_t x0, y0, x1, y1;
+  [[nodiscard]] std::int64_t count() const { return std::max<std::int64_t>(0, x1 - x0) * std::max<std::int64_t>(0, y1 - y0); }
+};
+
+class CellMarker {
+ public:
+  CellMarker(const ShadowCellInput& input, const TexelRect& tile, const DomainEndAt& domain_end)
+      : input_(input), domain_end_(domain_end), cells_{tile, (tile.x1 - tile.x0 + kCellSize - 1) / kCellSize,
+                                                       (tile.y1 - tile.y0 + kCellSize - 1) / kCellSize, {}} {
+    cells_.dark.assign(cell_count(), 0);
+    find_last_ends();
+  }
+
+  ShadowCells run() {
+    for (const LightSpaceMesh& mesh : input_.scene.meshes) {
+      if (mesh.casts) mark_mesh(mesh);
+    }
+    return std::move(cells_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t cell_count() const {
+    return static_cast<std::size_t>(cells_.across) * static_cast<std::size_t>(cells_.up);
+  }
+
+  void find_last_ends() {
+    last_end_.assign(cell_count(), 0);
+    for (std::int32_t y = 0; y < cells_.up; ++y) {
+      for (std::int32_t x = 0; x < cells_.across; ++x) {
+        float& last = last_end_[static_cast<std::size_t>(y * cells_.across + x)];
+        for_each_ray(x, y, [&](std::int32_t i, std::int32_t j) {
+          last = std::max(last, domain_end_(i, j));
+          return true;
+        });
+      }
+    }
+  }
+
+  /// Calls visit(i, j) for the rays of a cell until it returns false; tells whether it never did.
+  template <typename Visitor>
+  bool for_each_ray(std::int32_t x, std::int32_t y, Visitor&& visit) const {
+    const TexelRect rect = cells_.cell_rect(x, y);
+    for (std::int32_t j = rect.y0; j < rect.y1; ++j) {
+      for (std::int32_t i = rect.x0; i < rect.x1; ++i) {
+        if (!visit(i, j)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Each thread marks cells of its own; a mark never depends on other marks.
+  void mark_mesh(const LightSpaceMesh& mesh) {
+#pragma omp parallel num_threads(static_cast<int>(input_.threads))
+    {
+      std::vector<std::uint8_t> dark(cell_count(), 0);
+#pragma omp for schedule(static) nowait
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mark_triangle(mesh, mesh.triangles[t], dark);
+#pragma omp critical
+      for (std::size_t c = 0; c < dark.size(); ++c) cells_.dark[c] |= dark[c];
+    }
+  }
+
+  void mark_triangle(const LightSpaceMesh& mesh, const glm::uvec3& t, std::vector<std::uint8_t>& dark) const {
+    const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
+    if (triangle.count == 0) return;
+    double first_depth = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
+    const CellRange range = find_range(triangle, first_depth);
+    const bool ask_plane = range.count() >= kManyCells;
+    for (std::int64_t y = range.y0; y < range.y1; ++y) {
+      for (std::int64_t x = range.x0; x < range.x1; ++x) {
+        const auto cell = static_cast<std::size_t>(y * cells_.across + x);
+        if (dark[cell] != 0 || first_depth >= static_cast<double>(last_end_[cell])) continue;
+        if (ask_plane && stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y))) continue;
+        dark[cell] = 1;
+      }
+    }
+  }
+
+  [[nodiscard]] CellRange find_range(const ClippedTriangle& triangle, double first_depth) const {
+    const double spread = std::max(0.0, 1 / first_depth - 1 / input_.grid.far_depth);
+    std::int64_t low[2], high[2];
+    const std::int32_t start[2] = {cells_.tile.x0, cells_.tile.y0}, cells[2] = {cells_.across, cells_.up};
+    for (int a = 0; a < 2; ++a) {
+      double least = std::numeric_limits<double>::infinity(), greatest = -least;
+      for (int n = 0; n < triangle.count; ++n) {
+        const double slope = triangle.corner[n][a] / triangle.corner[n].z;
+        least = std::min(least, slope);
+        greatest = std::max(greatest, slope);
+      }
+      const auto axis = static_cast<std::size_t>(a);
+      const MapGrid& grid = input_.grid;
+      const double pad = kTexelReach * grid.pitch[axis], pitch = grid.pitch[axis] * grid.ratio[axis].maps_per_texel();
+      least += -input_.light.max[axis] * spread - pad;
+      greatest += -input_.light.min[axis] * spread + pad;
+      low[a] = to_cell((least - grid.origin[axis]) / pitch, start[a], cells[a]);
+      high[a] = to_cell((greatest - grid.origin[axis]) / pitch, start[a], cells[a] - 1) + 1;
+    }
+    return {std::max<std::int64_t>(low[0], 0), std::max<std::int64_t>(low[1], 0), high[0], high[1]};
+  }
+
+  /// Cell of a texel coordinate, between -1 and `most`.
+  static std::int64_t to_cell(double texel, std::int32_t start, std::int32_t most) {
+    return static_cast<std::int64_t>(std::clamp(std::floor((texel - start) / kCellSize), -1.0, static_cast<double>(most)));
+  }
+
+  /// Whether light and all rays of a cell, up to their ends, stay on one side of the triangle's plane.
+  [[nodiscard]] bool stays_in_front(const LightSpaceMesh& mesh, const glm::uvec3& t, std::int32_t x, std::int32_t y) const {
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    glm::dvec3 normal = glm::cross(b - a, c - a);
+    double offset = glm::dot(normal, a);
+    if (offset > 0) {
+      normal = -normal;
+      offset = -offset;
+    }
+    // Now the light's centre is in front: normal . P >= offset.
+    for (const double light_x : {input_.light.min[0], input_.light.max[0]}) {
+      for (const double light_y : {input_.light.min[1], input_.light.max[1]}) {
+        if (normal.x * light_x + normal.y * light_y < offset) return false;
+      }
+    }
+    return for_each_ray(x, y, [&](std::int32_t i, std::int32_t j) {
+      const double rate = normal.x * input_.grid.center_slope(0, static_cast<std::uint32_t>(i)) +
+                          normal.y * input_.grid.center_slope(1, static_cast<std::uint32_t>(j)) + normal.z;
+      const double end = static_cast<double>(domain_end_(i, j)) - input_.depth_rounding;
+      return rate >= 0 || end * rate >= offset;
+    });
+  }
+
+  const ShadowCellInput& input_;
+  const DomainEndAt& domain_end_;
+  ShadowCells cells_;
+  std::vector<float> last_end_;
+};
+
+}  // namespace
+
+LightBounds bound_samples(std::span<const LightSample> samples) {
+  LightBounds bounds{samples[0].position[0], samples[0].position[1], samples[0].position[0], samples[0].position[1]};
+  for (const LightSample& sample : samples) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      bounds.min[a] = std::min(bounds.min[a], sample.position[a]);
+      bounds.max[a] = std::max(bounds.max[a], sample.position[a]);
+    }
+  }
+  return bounds;
+}
+
+TexelRect ShadowCells::cell_rect(std::int32_t x, std::int32_t y) const {
+  const std::int32_t x0 = tile.x0 + x * kCellSize, y0 = tile.y0 + y * kCellSize;
+  return {x0, y0, std::min(x0 + kCellSize, tile.x1), std::min(y0 + kCellSize, tile.y1)};
+}
+
+ShadowCells find_shadow_cells(const ShadowCellInput& input, const TexelRect& tile, const DomainEndAt& domain_end) {
+  return CellMarker(input, tile, domain_end).run();
+}
+
+}  // namespace pdsm

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "pdsm/format/penumbra_map.h"
+#include "trace/light_space.h"
+#include "trace/sample_map.h"
+#include "walk/map_grid.h"
+
+/// Which rays of a tile some caster can darken at all. The others have empty functions: they are not
+/// walked, and what only they would have looked at is not traced.
+///
+/// A caster point Q at depth t is in the way between the light sample s and the point z (u, v, 1) if
+/// Q_xy / t - u = s (1/t - 1/z) for some z in (t, e], e the ray's domain end. So Q can darken rays with
+///   u in  Q_xy / t - [s_min, s_max] (1/t - 1/e)
+/// widened by what a map texel spans. A triangle's bounds follow from its vertices. Besides, a triangle
+/// can't darken a ray that ends before its plane is crossed, if the whole light is on that side too.
+namespace pdsm {
+
+/// Edge of a cell in texels: a divisor of kBlockSize.
+inline constexpr std::int32_t kCellSize = 16;
+
+/// Bounds of the light samples in the light's plane.
+struct LightBounds {
+  std::array<double, 2> min{}, max{};
+};
+[[nodiscard]] LightBounds bound_samples(std::span<const LightSample> samples);
+
+/// The cells of a tile, row by row; 1 where a caster may darken a ray.
+struct ShadowCells {
+  TexelRect tile;
+  std::int32_t across = 0, up = 0;
+  std::vector<std::uint8_t> dark;
+
+  [[nodiscard]] TexelRect cell_rect(std::int32_t x, std::int32_t y) const;
+  [[nodiscard]] bool may_darken(std::int32_t x, std::int32_t y) const {
+    return dark[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] != 0;
+  }
+};
+
+/// Everything that decides about a tile's cells. The verdict on a cell depends on the cell's own rays and
+/// the casters alone, not on the tile.
+struct ShadowCellInput {
+  const LightSpaceScene& scene;
+  const MapGrid& grid;
+  LightBounds light;
+  double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
+  double depth_rounding = 0;   ///< metres: what a domain end may be off its surface
+  std::uint32_t threads = 1;
+};
+
+/// Domain end of a texel of the map.
+using DomainEndAt = std::function<float(std::int32_t i, std::int32_t j)>;
+
+[[nodiscard]] ShadowCells find_shadow_cells(const ShadowCellInput& input, const TexelRect& tile,
+                                            const DomainEndAt& domain_end);
+
+}  // namespace pdsm

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/tile_plan.h"
+
+#include <algorithm>
+
+#include "events/event_log.h"
+#include "pdsm/format/error.h"
+#include "walk/general_walk.h"
+#include "walk/shift_walk.h"
+
+namespace pdsm {
+namespace {
+
+/// Events per ray and sample that a plan expects. The dragon has 0.3 on average, a forest of thin things
+/// more; a tile that has more than its share is split and baked again.
+constexpr double kExpectedEvents = 0.5;
+/// Encoded bytes per texel that a plan sets aside; the dragon needs 6 at epsilon 0.02.
+constexpr std::uint64_t kOutputBytesPerTexel = 8;
+/// Blocks being fitted, allocator slack and tables, per thread.
+constexpr std::uint64_t kThreadOverhead = std::uint64_t{12} << 20;
+/// Tasks per thread below which a tile's samples are cut into strips.
+constexpr std::uint32_t kLeastTasksPerThread = 4;
+constexpr std::uint32_t kLargestTile = 4096;
+
+std::uint32_t round_up_to_block(std::uint32_t texels) { return (texels + kBlockSize - 1) / kBlockSize * kBlockSize; }
+
+std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
+  const auto width = static_cast<std::int32_t>(grid.texels[0]), height = static_cast<std::int32_t>(grid.texels[1]);
+  const auto step = static_cast<std::int32_t>(edge);
+  std::vector<TexelRect> tiles;
+  for (std::int32_t y = 0; y < height; y += step) {
+    for (std::int32_t x = 0; x < width; x += step) {
+      tiles.push_back({x, y, std::min(x + step, width), std::min(y + step, height)});
+    }
+  }
+  return tiles;
+}
+
+std::uint64_t area(const TexelRect& rect) {
+  return static_cast<std::uint64_t>(rect.x1 - rect.x0) * static_cast<std::uint64_t>(rect.y1 - rect.y0);
+}
+
+TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
+  TilePlan plan;
+  plan.edge = edge;
+  plan.tiles = cut_tiles(input.grid, edge);
+  const TexelRect& first = plan.tiles.front();
+  std::uint64_t largest = 0;
+  double margin_factor = 0;
+  for (const LightSample& sample : input.samples) {
+    const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
+    largest = std::max(largest, SampleMap::bytes_for(footprint, input.grid.ratio[0].fine));
+    margin_factor += static_cast<double>(SampleMap::bytes_for(footprint, input.grid.ratio[0].fine) / sizeof(float)) /
+                     static_cast<double>(area(first));
+  }
+  const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];
+  plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
+  plan.map_bytes = input.threads * (largest + kThreadOverhead);
+  plan.output_bytes = texels * kOutputBytesPerTexel;
+  const std::uint64_t fixed = plan.map_bytes + plan.output_bytes;
+  plan.event_limit = input.memory > fixed ? input.memory - fixed : 0;
+  const auto tasks = static_cast<std::uint32_t>(input.samples.size());
+  plan.strips = std::clamp((kLeastTasksPerThread * input.threads + tasks - 1) / tasks, 1u, edge / kBlockSize);
+  return plan;
+}
+
+/// Whether a tile's expected events, and the pages that all threads have open, fit.
+bool fits(const PlanInput& input, const TilePlan& plan) {
+  const std::uint64_t texels = area(plan.tiles.front());
+  const double events = kExpectedEvents * static_cast<double>(texels) * static_cast<double>(input.samples.size());
+  const std::uint64_t blocks = texels / (kBlockSize * kBlockSize) + 1;
+  const std::uint64_t open_pages = blocks * input.threads * EventLog::kPageEvents * sizeof(PackedEvent);
+  return events * sizeof(PackedEvent) + static_cast<double>(open_pages) <= static_cast<double>(plan.event_limit);
+}
+
+}  // namespace
+
+TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk walk, const TexelRect& rays) {
+  if (!obeys_shift_law(sample)) return general_footprint(grid, sample, rays);
+  ShiftWalk shift;
+  shift.list(grid, sample, walk);
+  return shift.footprint(rays);
+}
+
+TilePlan plan_tiles(const PlanInput& input) {
+  const std::uint32_t whole = round_up_to_block(std::max(input.grid.texels[0], input.grid.texels[1]));
+  if (input.edge != 0) return make_plan(input, std::min(input.edge, whole));
+  for (std::uint32_t edge = std::min(whole, kLargestTile); edge > kBlockSize; edge = round_up_to_block(edge / 2)) {
+    TilePlan plan = make_plan(input, edge);
+    if (fits(input, plan)) return plan;
+  }
+  TilePlan plan = make_plan(input, kBlockSize);
+  if (plan.event_limit == 0) {
+    const std::uint64_t least = (plan.map_bytes + plan.output_bytes) >> 20;
+    throw Error(Failure::resource, "--memory", "this map needs more than " + std::to_string(least) + "M; fewer threads need less");
+  }
+  return plan;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/embree_scene.h"
+
+#include <array>
+
+#include "pdsm/format/error.h"
+
+namespace pdsm {
+namespace {
+
+struct IsaName {
+  const char* name;
+  bool supported;
+};
+
+std::array<IsaName, 5> known_isas() {
+  __builtin_cpu_init();
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512vl");
+  return {{{"avx512", avx512},
+           {"avx2", __builtin_cpu_supports("avx2") != 0},
+           {"avx", __builtin_cpu_supports("avx") != 0},
+           {"sse4.2", __builtin_cpu_supports("sse4.2") != 0},
+           {"sse2", true}}};
+}
+
+void throw_embree_error(void*, RTCError code, const char* message) {
+  throw Error(Failure::resource, "embree", std::string(message) + " (" + std::to_string(code) + ")");
+}
+
+void attach_mesh(RTCDevice device, RTCScene scene, const LightSpaceMesh& mesh, unsigned id) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
+                             sizeof(glm::vec3), mesh.positions.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                             sizeof(glm::uvec3), mesh.triangles.size());
+  rtcSetGeometryMask(geometry, (mesh.casts ? kCasterMask : 0u) | (mesh.receives ? kReceiverMask : 0u));
+  rtcSetGeometryUserData(geometry, const_cast<LightSpaceMesh*>(&mesh));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+}  // namespace
+
+std::string choose_isa(const std::string& wanted) {
+  for (const IsaName& isa : known_isas()) {
+    if (wanted.empty() && isa.supported) return isa.name;
+    if (wanted != isa.name) continue;
+    if (isa.supported) return wanted;
+    throw Error(Failure::usage, "--isa", "this machine has no " + wanted);
+  }
+  throw Error(Failure::usage, "--isa", "must be one of sse2, sse4.2, avx, avx2, avx512, not " + wanted);
+}
+
+EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, unsigned threads)
+    : geometry_(scene) {
+  const std::string config = "isa=" + isa + ",threads=" + std::to_string(threads);
+  device_ = rtcNewDevice(config.c_str());
+  if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device for " + config);
+  rtcSetDeviceErrorFunction(device_, throw_embree_error, nullptr);
+  scene_ = rtcNewScene(device_);
+  // Without the robust flag rays slip through the shared edges of a closed mesh.
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (!scene.meshes[i].triangles.empty()) attach_mesh(device_, scene_, scene.meshes[i], static_cast<unsigned>(i));
+  }
+  rtcCommitScene(scene_);
+}
+
+EmbreeScene::~EmbreeScene() {
+  if (scene_ != nullptr) rtcReleaseScene(scene_);
+  if (device_ != nullptr) rtcReleaseDevice(device_);
+}
+
+}  // namespace pdsm

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <string>
+
+#include "trace/light_space.h"
+
+namespace pdsm {
+
+/// Ray masks of the baker's scene.
+inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2;
+
+/// The ISA that Embree will use when asked for `wanted` (empty: the best of this machine). Throws Error
+/// (usage) for an unknown name or one that this machine lacks.
+[[nodiscard]] std::string choose_isa(const std::string& wanted);
+
+/// Embree's device and scene over a light-space scene; the only owner of both handles. Borrows the
+/// positions and triangles: the LightSpaceScene must outlive it. After construction, any thread may trace.
+class EmbreeScene {
+ public:
+  EmbreeScene(const LightSpaceScene& scene, const std::string& isa, unsigned threads);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  [[nodiscard]] RTCScene handle() const { return scene_; }
+  [[nodiscard]] const LightSpaceScene& geometry() const { return geometry_; }
+
+ private:
+  const LightSpaceScene& geometry_;
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace pdsm

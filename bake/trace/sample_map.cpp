@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/sample_map.h"
+
+#include <cmath>
+#include <limits>
+
+namespace pdsm {
+namespace {
+
+constexpr int kPacketRays = kPacketEdge * kPacketEdge;
+/// Lanes that a walk may load behind a row's last ray.
+constexpr std::size_t kLoadPadding = 16;
+/// Geometry up to this share of near never blocks: it is the emitter itself, or behind it.
+constexpr double kEmitterShare = 1e-4;
+
+std::int32_t floor_to(std::int32_t x, std::int32_t multiple) {
+  const std::int32_t rest = x % multiple;
+  return rest < 0 ? x - rest - multiple : x - rest;
+}
+
+TexelRect widen_to_packets(const TexelRect& rect, std::uint32_t interleave) {
+  const auto unit = kPacketEdge * static_cast<std::int32_t>(interleave);
+  return {floor_to(rect.x0, unit), floor_to(rect.y0, kPacketEdge), floor_to(rect.x1 + unit - 1, unit),
+          floor_to(rect.y1 + kPacketEdge - 1, kPacketEdge)};
+}
+
+/// Rays of one light sample through map texel centres: direction (d_x, d_y, 1), so that t = z - s_z.
+struct RayGenerator {
+  const LightSample& sample;
+  std::array<double, 2> first{}, step{};  // direction of texel 0's centre, change per texel
+  float t_near;
+
+  RayGenerator(const MapGrid& grid, const LightSample& s) : sample(s) {
+    const double focus = grid.focus_depth, distance = focus - s.position[2];
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double slope = grid.origin[a] + (0.5 + s.jitter[a]) * grid.pitch[a];
+      first[a] = (slope * focus - s.position[a]) / distance;
+      step[a] = grid.pitch[a] * focus / distance;
+    }
+    const double t = kEmitterShare * grid.near_depth - s.position[2];
+    t_near = static_cast<float>(std::max(t, 0.0));
+  }
+
+  void fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const {
+    for (int lane = 0; lane < kPacketRays; ++lane) {
+      packet.ray.org_x[lane] = static_cast<float>(sample.position[0]);
+      packet.ray.org_y[lane] = static_cast<float>(sample.position[1]);
+      packet.ray.org_z[lane] = static_cast<float>(sample.position[2]);
+      packet.ray.dir_x[lane] = static_cast<float>(first[0] + step[0] * (x0 + lane % kPacketEdge));
+      packet.ray.dir_y[lane] = static_cast<float>(first[1] + step[1] * (y0 + lane / kPacketEdge));
+      packet.ray.dir_z[lane] = 1;
+      packet.ray.tnear[lane] = t_near;
+      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+      packet.ray.time[lane] = 0;
+      packet.ray.mask[lane] = kCasterMask;
+      packet.ray.flags[lane] = 0;
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+};
+
+/// On the plane n . P = c the depth along direction d changes with the focus-plane slope a by
+/// dt/da = -t n / (lambda n . d); see ray_path.h for lambda.
+struct BiasRule {
+  float constant, reach_x, reach_y, limit;
+
+  BiasRule(const MapGrid& grid, const LightSample& sample, const MapBias& bias)
+      : constant(static_cast<float>(bias.constant)), limit(static_cast<float>(grid.far_depth)) {
+    const double lambda = (grid.focus_depth - sample.position[2]) / grid.focus_depth;
+    reach_x = static_cast<float>(bias.reach[0] * grid.pitch[0] / lambda);
+    reach_y = static_cast<float>(bias.reach[1] * grid.pitch[1] / lambda);
+  }
+
+  [[nodiscard]] float slope_bias(const RTCRayHit16& packet, int lane) const {
+    const float nx = packet.hit.Ng_x[lane], ny = packet.hit.Ng_y[lane], nz = packet.hit.Ng_z[lane];
+    const float facing = std::abs(nx * packet.ray.dir_x[lane] + ny * packet.ray.dir_y[lane] + nz);
+    const float across = packet.ray.tfar[lane] * (reach_x * std::abs(nx) + reach_y * std::abs(ny));
+    // Written so that a NaN (a grazing ray on a sliver) takes the limit.
+    return across < limit * facing ? across / facing : limit;
+  }
+};
+
+void store(const RTCRayHit16& packet, const BiasRule& rule, float origin_z, std::int32_t x0, std::int32_t y0,
+           SampleMap& map, SlopeBiasStatistics& statistics) {
+  alignas(64) float depths[kPacketRays], slopes[kPacketRays];
+  for (int lane = 0; lane < kPacketRays; ++lane) {
+    const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    slopes[lane] = hit ? rule.slope_bias(packet, lane) : 0.0F;
+    const float depth = origin_z + packet.ray.tfar[lane] + rule.constant + slopes[lane];
+    depths[lane] = hit ? depth : std::numeric_limits<float>::infinity();
+  }
+  map.set_packet(x0, y0, depths);
+  for (int lane = 0; lane < kPacketRays; ++lane) {
+    statistics.sum += static_cast<double>(slopes[lane]);
+    statistics.max = std::max(statistics.max, slopes[lane]);
+  }
+}
+
+}  // namespace
+
+void SampleMap::reset(const TexelRect& rect, std::uint32_t interleave) {
+  rect_ = widen_to_packets(rect, interleave);
+  interleave_ = interleave;
+  plane_ = (rect_.x1 - rect_.x0) / interleave_;
+  pitch_ = rect_.x1 - rect_.x0;
+  depth_.resize(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rect_.y1 - rect_.y0) + kLoadPadding);
+}
+
+void SampleMap::set_packet(std::int64_t x, std::int64_t y, const float* depths) {
+  if (interleave_ == 1) {
+    for (std::int64_t row = 0; row < kPacketEdge; ++row) {
+      float* to = depth_.data() + (y + row - rect_.y0) * pitch_ + (x - rect_.x0);
+      std::copy_n(depths + row * kPacketEdge, kPacketEdge, to);
+    }
+    return;
+  }
+  for (std::int64_t texel = 0; texel < kPacketRays; ++texel) {
+    set(x + texel % kPacketEdge, y + texel / kPacketEdge, depths[texel]);
+  }
+}
+
+std::uint64_t SampleMap::bytes_for(const TexelRect& rect, std::uint32_t interleave) {
+  const TexelRect wide = widen_to_packets(rect, interleave);
+  const auto texels = static_cast<std::uint64_t>(wide.x1 - wide.x0) * static_cast<std::uint64_t>(wide.y1 - wide.y0);
+  return (texels + kLoadPadding) * sizeof(float);
+}
+
+void PacketMask::reset(const TexelRect& rect) {
+  rect_ = rect;
+  across_ = (rect.x1 - rect.x0) / kPacketEdge;
+  wanted_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>((rect.y1 - rect.y0) / kPacketEdge), 0);
+}
+
+void PacketMask::want(const TexelRect& texels) {
+  const std::int32_t x0 = (texels.x0 - rect_.x0) / kPacketEdge, x1 = (texels.x1 - 1 - rect_.x0) / kPacketEdge + 1;
+  const std::int32_t y0 = (texels.y0 - rect_.y0) / kPacketEdge, y1 = (texels.y1 - 1 - rect_.y0) / kPacketEdge + 1;
+  for (std::int32_t y = y0; y < y1; ++y) {
+    std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(y) * across_ + x0, x1 - x0, std::uint8_t{1});
+  }
+}
+
+std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample,
+                               const MapBias& bias, const PacketMask* mask, SampleMap& map,
+                               SlopeBiasStatistics& statistics) {
+  const RayGenerator rays(grid, sample);
+  const BiasRule rule(grid, sample, bias);
+  const auto origin_z = static_cast<float>(sample.position[2]);
+  alignas(64) int valid[kPacketRays];
+  std::fill(std::begin(valid), std::end(valid), -1);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRayHit16 packet;
+  std::uint64_t traced = 0;
+  const TexelRect& rect = map.rect();
+  for (std::int32_t y = rect.y0; y < rect.y1; y += kPacketEdge) {
+    for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
+      if (mask != nullptr && !mask->is_wanted(x, y)) continue;
+      rays.fill(packet, x, y);
+      rtcIntersect16(valid, scene.handle(), &context, &packet);
+      store(packet, rule, origin_z, x, y, map, statistics);
+      traced += kPacketRays;
+    }
+  }
+  return traced;
+}
+
+}  // namespace pdsm
