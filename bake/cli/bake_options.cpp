@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bake_options.h"
+
+#include "cli/options.h"
+
+namespace pdsm {
+namespace {
+
+/// Metres that no scene reaches.
+constexpr double kMostMetres = 1e9;
+constexpr std::uint32_t kMostThreads = 1024;
+constexpr double kLargestEpsilon = 1 - 0x1p-53;
+
+void add_resolution(CLI::App& sub, const std::string& name,
+                    std::optional<std::array<std::uint32_t, 2>>& target, const std::string& help) {
+  sub.add_option_function<std::string>(
+         name, [name, &target](const std::string& text) { target = parse_size(name, text, kMostTexels); },
+         help)
+      ->type_name("R|WxH");
+}
+
+void add_quality_options(CLI::App& sub, BakeCommand& command) {
+  BakeOptions& options = command.options;
+  add_count(sub, "--samples", command.samples, 1, kMostSamples, "Light samples; default the light's or 256");
+  add_resolution(sub, "--resolution", command.resolution, "Texels of the map; default the light's or 512");
+  add_resolution(sub, "--map-resolution", command.map_resolution,
+                 "Texels of each sample's shadow map; default the map's");
+  add_real(sub, "--epsilon", options.epsilon, 0, kLargestEpsilon,
+           "Bound of the fit; default 0.02, 0: lossless");
+  add_real(sub, "--depth-tolerance", options.depth_tolerance, 0, kMostMetres,
+           "Metres an event may move; default a quarter of the bias");
+  add_real(sub, "--bias", options.bias, 0, kMostMetres, "Metres; default by the texels' footprint");
+  add_choice(sub, "--walk", options.walk, {{"midpoint", Walk::midpoint}, {"exact", Walk::exact}},
+             "How rays are converted to texels; default exact");
+  add_choice(sub, "--receivers", options.receivers, {{"all", Receivers::all}, {"volume", Receivers::volume}},
+             "Where functions are exact; default volume: up to the last receiver");
+  add_choice(sub, "--points", options.points,
+             {{"lattice", PointSet::lattice}, {"jittered", PointSet::jittered}},
+             "How the light is sampled; default lattice");
+  add_count(sub, "--seed", options.seed, 0, ~std::uint64_t{0}, "Default 0");
+}
+
+void add_resource_options(CLI::App& sub, BakeCommand& command) {
+  BakeOptions& options = command.options;
+  sub.add_option_function<std::string>(
+         "--memory", [&options](const std::string& text) { options.memory = parse_memory("--memory", text); },
+         "What baking may take beyond scene and BVH: 256M, 4G; default 4G")
+      ->type_name("SIZE");
+  add_count(sub, "--threads", options.threads, 0, kMostThreads, "Default 0: all processors");
+  add_choice<std::string>(
+      sub, "--isa", options.isa,
+      {{"sse2", "sse2"}, {"sse4.2", "sse4.2"}, {"avx", "avx"}, {"avx2", "avx2"}, {"avx512", "avx512"}},
+      "Instruction set that Embree may use; default the best");
+  sub.add_option_function<std::string>(
+         "--tile",
+         [&options](const std::string& text) {
+           options.tile = static_cast<std::uint32_t>(parse_count("--tile", text, 0, kMostTexels));
+           if (options.tile % kBlockSize != 0) refuse_value("--tile", "a multiple of 64", text);
+         },
+         "Edge of a tile in texels, a multiple of 64; default by cost")
+      ->type_name("N");
+}
+
+}  // namespace
+
+void add_bake_options(CLI::App& sub, BakeCommand& command) {
+  add_file(sub, "SCENE", command.scene, "Scene file");
+  sub.add_option("-o,--output", command.output, "Map to write; a folder for several lights, NAME.pdsm each")
+      ->type_name("FILE|DIR");
+  sub.add_option("--light", command.light, "Bake this light; default all")->type_name("NAME");
+  add_quality_options(sub, command);
+  add_resource_options(sub, command);
+  sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
+  sub.add_flag("--quiet", command.quiet, "Nothing but errors on stderr");
+  sub.add_flag("--dry-run", command.dry_run, "Print what the bake would take, and do not bake");
+}
+
+BakeOptions options_for(const BakeCommand& command, const Light& light) {
+  BakeOptions options = command.options;
+  options.samples = command.samples.value_or(light.samples.value_or(options.samples));
+  const auto resolution = command.resolution ? command.resolution : light.resolution;
+  if (resolution) std::tie(options.width, options.height) = std::tuple((*resolution)[0], (*resolution)[1]);
+  if (command.map_resolution) {
+    options.map_width = (*command.map_resolution)[0];
+    options.map_height = (*command.map_resolution)[1];
+  }
+  return options;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bake_record.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace pdsm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json modelled_json(const BakeReport& report) {
+  Json list = Json::array();
+  for (const ModelledFeature& feature : report.modelled) {
+    list.push_back(
+        {{"feature", feature.feature}, {"modelled", feature.modelled}, {"reason", feature.reason}});
+  }
+  return list;
+}
+
+/// The light with its frame made explicit: `direction` and `up` are the frame's z and y.
+Json light_json(const Light& light) {
+  const RigidTransform frame = light_frame(light);
+  const auto& r = frame.rotation;
+  Json json{{"name", light.name}};
+  if (const auto* rect = std::get_if<RectLight>(&light.shape)) {
+    json["type"] = "rect";
+    json["width"] = rect->width;
+    json["height"] = rect->height;
+  } else {
+    json["type"] = "disk";
+    json["radius"] = std::get<DiskLight>(light.shape).radius;
+  }
+  json["position"] = {light.position.x, light.position.y, light.position.z};
+  json["direction"] = {r[6], r[7], r[8]};
+  json["up"] = {r[3], r[4], r[5]};
+  return json;
+}
+
+Json options_json(const BakeOptions& options, const BakeReport& report) {
+  return {{"samples", report.samples},
+          {"resolution", {options.width, options.height}},
+          {"map_resolution", {report.map_width, report.map_height}},
+          {"epsilon", options.epsilon},
+          {"walk", walk_name(options.walk)},
+          {"receivers", options.receivers == Receivers::all ? "all" : "volume"},
+          {"points", options.points == PointSet::lattice ? "lattice" : "jittered"},
+          {"seed", options.seed}};
+}
+
+Json fit_json(const FittedView& fitted) {
+  return {{"window_fitted", fitted.window_fitted},
+          {"near_fitted", fitted.near_fitted},
+          {"far_fitted", fitted.far_fitted},
+          {"receivers_outside", fitted.receivers_outside},
+          {"nothing_casts", fitted.nothing_casts}};
+}
+
+/// Functions as they lie in memory, or in textures.
+std::uint64_t decoded_bytes(const BakedMap& baked) {
+  std::uint64_t bytes = 0;
+  for (const auto& blocks : baked.blocks) {
+    for (const EncodedBlock& block : blocks) bytes += block.decoded_bytes;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+const char* walk_name(Walk walk) {
+  return walk == Walk::midpoint ? "midpoint" : "exact";
+}
+
+std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
+                          const BakedMap& baked) {
+  const BakeReport& report = baked.report;
+  Json json;
+  json["tool"] = {{"name", "pdsm"}, {"version", PDSM_VERSION}};
+  json["input_hash"] = fmt::format("{:016x}", scene.content_hash);
+  json["isa"] = report.isa;
+  json["light"] = light_json(light);
+  json["options"] = options_json(options, report);
+  json["view_fit"] = fit_json(baked.fitted);
+  json["epsilon"] = report.epsilon;
+  json["depth_tolerance"] = report.depth_tolerance;
+  json["bias"] = report.bias;
+  json["modelled"] = modelled_json(report);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
+                                   const BakeCosts& costs) {
+  const BakeReport& report = baked.report;
+  Json json;
+  json["seconds"] = {{"load", costs.seconds_load},
+                     {"bvh", report.seconds_bvh},
+                     {"trace", report.seconds_trace},
+                     {"walk", report.seconds_walk},
+                     {"accumulate", report.seconds_accumulate},
+                     {"fit", report.seconds_fit},
+                     {"write", costs.seconds_write},
+                     {"total", costs.seconds_load + report.seconds_total + costs.seconds_write}};
+  json["rays"] = report.rays;
+  json["events"] = report.events;
+  json["texels"] = report.texels;
+  json["pieces"] = report.pieces;
+  json["bytes"] = {{"file", costs.file_bytes}, {"gpu", decoded_bytes(baked)}, {"peak_memory", peak_memory()}};
+  json["samples"] = report.samples;
+  json["resolution"] = {options.width, options.height};
+  json["epsilon"] = report.epsilon;
+  json["depth_tolerance"] = report.depth_tolerance;
+  json["bias"] = report.bias;
+  json["walk"] = walk_name(report.walk);
+  json["isa"] = report.isa;
+  json["modelled"] = modelled_json(report);
+  json["receivers_outside"] = baked.fitted.receivers_outside;
+  return json;
+}
+
+std::uint64_t peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kilobytes = 0;
+    if (word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
+  }
+  return 0;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "pdsm/bake/bake.h"
+
+/// What is written down about a bake: in the map for good, in the report for those who run it.
+namespace pdsm {
+
+/// The metadata of a baked map. Holds nothing that another run on the same input could change: no times,
+/// threads or tiles.
+[[nodiscard]] std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
+                                        const BakedMap& baked);
+
+/// What the command line knows beyond the baker's own report.
+struct BakeCosts {
+  double seconds_load = 0, seconds_write = 0;
+  std::uint64_t file_bytes = 0;
+};
+
+/// The report of one bake (docs/commands.md).
+[[nodiscard]] nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
+                                                 const BakeCosts& costs);
+
+[[nodiscard]] const char* walk_name(Walk walk);
+
+/// Most memory that this process had resident so far, bytes; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t peak_memory();
+
+}  // namespace pdsm

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "pdsm/format/deep_exr.h"
+#include "pdsm/format/map_file.h"
+
+namespace pdsm {
+namespace {
+
+struct ExportOptions {
+  std::string input, output;
+};
+
+int run_export(const ExportOptions& options) {
+  check_output(options.output, {options.input});
+  export_deep_exr(read_map(options.input), options.output);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, Run& run) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App& command =
+      *app.add_subcommand("export", "A map to an OpenEXR deep image (Nuke, Natron, oiiotool)");
+  add_file(command, "FILE", options->input, "Map");
+  command.add_option("-o,--output", options->output, "Deep image to write")->required();
+  command.callback([options, &run] { run = [options] { return run_export(*options); }; });
+}
+
+}  // namespace pdsm

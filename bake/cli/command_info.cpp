@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/streams.h"
+#include "evaluate/map_statistics.h"
+#include "pdsm/format/map_file.h"
+
+namespace pdsm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+  std::string map;
+  bool json = false;
+};
+
+Json view_json(const View& view, const VertexCoding& coding) {
+  return {{"projection", view.projection == Projection::perspective ? "perspective" : "orthographic"},
+          {"width", view.width},
+          {"height", view.height},
+          {"window", view.window},
+          {"near", view.near_depth},
+          {"far", view.far_depth},
+          {"depth_step", depth_step(view, coding)},
+          {"world_to_view",
+           {{"rotation", view.world_to_view.rotation}, {"translation", view.world_to_view.translation}}}};
+}
+
+Json coding_json(const VertexCoding& coding) {
+  return {{"depth_bits", coding.depth_bits},
+          {"value_bits", coding.value_bits},
+          {"channels", coding.channels},
+          {"value_max", coding.value_max}};
+}
+
+/// Bytes by type of chunk, in the order of first appearance.
+Json bytes_json(const std::vector<std::byte>& bytes) {
+  Json parts = Json::object();
+  for (const ChunkSummary& chunk : list_chunks(bytes)) {
+    Json& part = parts[chunk.type];
+    if (part.is_null()) part = {{"chunks", 0}, {"stored", 0}, {"decoded", 0}};
+    part["chunks"] = part["chunks"].get<std::uint64_t>() + 1;
+    part["stored"] = part["stored"].get<std::uint64_t>() + chunk.stored_bytes;
+    part["decoded"] = part["decoded"].get<std::uint64_t>() + chunk.decoded_bytes;
+  }
+  return {{"file", bytes.size()}, {"parts", parts}};
+}
+
+Json functions_json(const PenumbraMap& map) {
+  const MapStatistics statistics = map_statistics(map);
+  return {{"texels", statistics.texels},
+          {"empty_texels", statistics.empty_texels},
+          {"pieces", statistics.pieces},
+          {"longest", statistics.longest}};
+}
+
+Json info_json(const PenumbraMap& map, const std::vector<std::byte>& bytes) {
+  Json json;
+  json["views"] = Json::array();
+  for (const View& view : map.views) json["views"].push_back(view_json(view, map.coding));
+  json["layers"] = map.layers;
+  json["layer_rule"] = map.layer_rule == LayerRule::maximum ? "maximum" : "clamped_sum";
+  json["images"] = map.images.size();
+  json["coding"] = coding_json(map.coding);
+  json["samples"] = map.samples.size();
+  json["functions"] = functions_json(map);
+  json["bytes"] = bytes_json(bytes);
+  json["metadata"] = metadata_of(map);
+  return json;
+}
+
+std::string views_text(const PenumbraMap& map) {
+  std::string text;
+  for (const View& view : map.views) {
+    const auto& w = view.window;
+    text += fmt::format(
+        "view       {} {} x {}\n"
+        "  window   [{:.6g}, {:.6g}, {:.6g}, {:.6g}]\n"
+        "  depth    {:.6g} .. {:.6g} m, step {:.3g} m\n",
+        view.projection == Projection::perspective ? "perspective" : "orthographic", view.width, view.height,
+        w[0], w[1], w[2], w[3], view.near_depth, view.far_depth, depth_step(view, map.coding));
+  }
+  return text;
+}
+
+std::string functions_text(const PenumbraMap& map) {
+  const MapStatistics s = map_statistics(map);
+  const double texels = static_cast<double>(std::max<std::uint64_t>(1, s.texels));
+  return fmt::format(
+      "coding     depth {} bits, attenuation {} bits (0..{}), {} channel\n"
+      "samples    {}\n"
+      "texels     {}, {} empty ({:.1f}%)\n"
+      "functions  {} pieces, longest {}\n",
+      map.coding.depth_bits, map.coding.value_bits, map.coding.value_max, map.coding.channels,
+      map.samples.size(), s.texels, s.empty_texels, 100 * static_cast<double>(s.empty_texels) / texels,
+      s.pieces, s.longest);
+}
+
+std::string bytes_text(const Json& bytes) {
+  std::string text = fmt::format("bytes      {}\n", bytes["file"].get<std::uint64_t>());
+  for (const auto& [type, part] : bytes["parts"].items()) {
+    text += fmt::format("  {:<8} {} ({} decoded, {} chunks)\n", type, part["stored"].get<std::uint64_t>(),
+                        part["decoded"].get<std::uint64_t>(), part["chunks"].get<std::uint64_t>());
+  }
+  return text;
+}
+
+/// Value of any type as text; strings without quotes.
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// What the metadata tells of the bake, as far as it does: it may come from elsewhere.
+std::string metadata_text(const Json& metadata) {
+  std::string text;
+  for (const char* key :
+       {"light", "options", "epsilon", "depth_tolerance", "bias", "isa", "tool", "input_hash"}) {
+    if (!metadata.is_object() || !metadata.contains(key)) continue;
+    text += fmt::format("{:<10} ", key);
+    const Json& value = metadata[key];
+    if (value.is_object()) {
+      for (const auto& [name, entry] : value.items()) text += name + " " + plain(entry) + "  ";
+      text.resize(text.size() - (value.empty() ? 0 : 2));
+    } else {
+      text += plain(value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string modelled_text(const Json& metadata) {
+  std::string text;
+  if (!metadata.is_object() || !metadata.contains("modelled") || !metadata["modelled"].is_array())
+    return text;
+  for (const Json& feature : metadata["modelled"]) {
+    if (!feature.is_object()) continue;
+    const bool modelled = feature.value("modelled", Json(false)) == Json(true);
+    text += fmt::format("{} {}: {}\n", modelled ? "modelled  " : "left out  ",
+                        plain(feature.value("feature", Json(""))), plain(feature.value("reason", Json(""))));
+  }
+  return text;
+}
+
+std::string info_text(const std::string& name, const PenumbraMap& map, const std::vector<std::byte>& bytes) {
+  const Json metadata = metadata_of(map);
+  return name + "\n" + views_text(map) + functions_text(map) + metadata_text(metadata) +
+         modelled_text(metadata) + bytes_text(bytes_json(bytes));
+}
+
+int run_info(const InfoOptions& options) {
+  const std::vector<std::byte> bytes = read_bytes(options.map);
+  const PenumbraMap map = read_map(bytes, options.map);
+  write_result(options.json ? info_json(map, bytes).dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+                            : info_text(options.map, map, bytes));
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Run& run) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App& command = *app.add_subcommand("info", "What is in a map, and what it was made of");
+  add_file(command, "FILE", options->map, "Map");
+  command.add_flag("--json", options->json, "Print JSON");
+  command.callback([options, &run] { run = [options] { return run_info(*options); }; });
+}
+
+}  // namespace pdsm

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/options.h"
+#include "cli/streams.h"
+#include "evaluate/render.h"
+#include "pdsm/bake/scene_file.h"
+#include "pdsm/bake/view_fit.h"
+#include "pdsm/format/map_file.h"
+
+namespace pdsm {
+namespace {
+
+struct RenderCommand {
+  std::vector<std::string> files;  ///< maps, then the scene
+  std::string output;
+  RenderOptions options;
+  bool truth = false, difference = false;
+};
+
+Camera parse_camera(const std::string& text) {
+  constexpr double kFar = 1e9, kNarrowest = 0.01, kWidest = 170;
+  const std::string option = "--camera";
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(parse_real(option, text.substr(begin, end - begin), -kFar, kFar));
+    begin = end + 1;
+  }
+  if (numbers.size() != 7) refuse_value(option, "eye x,y,z, target x,y,z and fov: seven numbers", text);
+  const Camera camera{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}, numbers[6]};
+  if (!(camera.fov >= kNarrowest && camera.fov <= kWidest))
+    refuse_value(option, "of a fov 0.01 .. 170", text);
+  if (camera.eye == camera.target) refuse_value(option, "of two points", text);
+  return camera;
+}
+
+/// Lights with maps, or for the truth alone all lights.
+std::vector<PictureLight> picture_lights(const Scene& scene, const std::vector<PenumbraMap>& maps,
+                                         const RenderCommand& command) {
+  std::vector<PictureLight> lights;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const Light& light = light_of_map(scene, maps[i], i, command.files[i]);
+    lights.push_back({&light, &maps[i], maps[i].views.front().near_depth});
+  }
+  if (!maps.empty()) return lights;
+  for (const Light& light : scene.lights) {
+    lights.push_back({&light, nullptr, fit_view(scene, light, 64, 64).view.near_depth});
+  }
+  return lights;
+}
+
+void write_picture(const Picture& picture, const RenderCommand& command) {
+  const bool exr = image_format(command.output, "--output") == ImageFormat::exr;
+  const RgbImage& linear = picture.linear;
+  if (!command.difference) {
+    if (exr) return write_exr(linear.width, linear.height, split_planes(linear), command.output);
+    return write_png(picture.display, command.output);
+  }
+  if (exr) {
+    write_exr(linear.width, linear.height, {{"Y", picture.difference}}, command.output);
+  } else {
+    write_png(draw_difference(picture), command.output);
+  }
+  const DifferenceSummary summary = summarise_difference(picture.difference);
+  write_result(fmt::format("pixels {}\nmean {:.6f}\nrms {:.6f}\nmax {:.6f}\n", summary.pixels,
+                           summary.mean_abs, summary.rms, summary.max));
+}
+
+void check_usage(const RenderCommand& command) {
+  if (command.truth && command.difference) throw Error(Failure::usage, "--truth", "excludes --difference");
+  if (command.files.size() < 2 && !command.truth) {
+    throw Error(Failure::usage, "FILE", "a map and then the scene are needed");
+  }
+  (void)image_format(command.output, "--output");
+}
+
+int run_render(RenderCommand command) {
+  check_usage(command);
+  const std::string scene_file = command.files.back();
+  std::vector<std::filesystem::path> inputs = scene_inputs(scene_file);
+  inputs.insert(inputs.end(), command.files.begin(), command.files.end() - 1);
+  check_output(command.output, inputs);
+
+  std::vector<PenumbraMap> maps;
+  for (std::size_t i = 0; i + 1 < command.files.size(); ++i) maps.push_back(read_map(command.files[i]));
+  const Scene scene = read_scene(scene_file);
+  const std::vector<PictureLight> lights = picture_lights(scene, maps, command);
+  if (lights.size() < scene.lights.size()) {
+    write_warning(fmt::format("{} of {} lights have no map and stay dark",
+                              scene.lights.size() - lights.size(), scene.lights.size()));
+  }
+  if (command.truth) command.options.source = ShadowSource::truth;
+  if (command.difference) command.options.source = ShadowSource::difference;
+  write_picture(render(scene, lights, command.options), command);
+  return kExitOk;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Run& run) {
+  auto command = std::make_shared<RenderCommand>();
+  RenderOptions& options = command->options;
+  CLI::App& sub = *app.add_subcommand("render", "A picture of a scene with its maps' shadows");
+  sub.add_option("FILE", command->files, "Maps, then the scene file; the scene alone with --truth")
+      ->required()
+      ->type_name("");
+  sub.add_option("-o,--output", command->output, "Picture to write; EXR: linear light")
+      ->required()
+      ->type_name("IMAGE.png|.exr");
+  sub.add_option_function<std::string>(
+         "--camera", [&options](const std::string& text) { options.camera = parse_camera(text); },
+         "Default: a three-quarter view of the casters. fov in degrees, of the shorter side")
+      ->type_name("EX,EY,EZ,TX,TY,TZ,FOV");
+  sub.add_option_function<std::string>(
+         "--size",
+         [&options](const std::string& text) {
+           const auto size = parse_size("--size", text, kMostTexels);
+           options.width = size[0];
+           options.height = size[1];
+         },
+         "Pixels; default 960x720")
+      ->type_name("WxH");
+  add_count(sub, "--supersample", options.supersample, 1, 8, "Rays a pixel along each axis; default 2");
+  sub.add_flag("--truth", command->truth, "Shadows by shadow rays instead of the maps");
+  sub.add_flag("--difference", command->difference, "Heat map of |map - truth|; EXR: map - truth, signed");
+  add_count(sub, "--truth-samples", options.truth_samples, 1, kMostSamples,
+            "Shadow rays a viewing ray; default 256");
+  sub.callback([command, &run] { run = [command] { return run_render(*command); }; });
+}
+
+}  // namespace pdsm

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/probe_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "truth/random.h"
+#include "truth/world_scene.h"
+
+namespace pdsm {
+namespace {
+
+/// Draws per probe before giving up: a window that holds a thousandth of the candidates still fills.
+constexpr std::uint64_t kDrawsPerProbe = 4000;
+
+/// A receiver triangle in view space that may have surface in the window.
+struct Candidate {
+  std::array<glm::dvec3, 3> corners;
+  bool both_sides;
+};
+
+/// Signed distances to the window's four sides (up to a positive factor); negative is outside.
+std::array<double, 4> side_distances(const View& view, const glm::dvec3& p) {
+  const double w = view.projection == Projection::perspective ? p.z : 1.0;
+  return {p.x - view.window[0] * w, p.y - view.window[1] * w, view.window[2] * w - p.x,
+          view.window[3] * w - p.y};
+}
+
+/// Whether all corners lie beyond one side of the window's pyramid, so that no point is in it.
+bool misses_window(const View& view, const std::array<glm::dvec3, 3>& corners) {
+  std::array<bool, 6> beyond{true, true, true, true, true, true};
+  for (const glm::dvec3& corner : corners) {
+    const std::array<double, 4> sides = side_distances(view, corner);
+    for (std::size_t s = 0; s < 4; ++s) beyond[s] = beyond[s] && sides[s] < 0;
+    beyond[4] = beyond[4] && !(corner.z > 0);
+    beyond[5] = beyond[5] && corner.z > view.far_depth;
+  }
+  return std::any_of(beyond.begin(), beyond.end(), [](bool all) { return all; });
+}
+
+/// Whether the side that the winding shows faces the centre of projection.
+bool faces_light(const View& view, const std::array<glm::dvec3, 3>& corners) {
+  const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const glm::dvec3 to_light = view.projection == Projection::perspective ? -corners[0] : glm::dvec3(0, 0, -1);
+  return glm::dot(normal, to_light) > 0;
+}
+
+double area(const std::array<glm::dvec3, 3>& corners) {
+  return 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+void append_candidates(const Geometry& geometry, const View& view, std::vector<Candidate>& candidates) {
+  const bool mirrored = glm::determinant(glm::dmat3(geometry.local_to_world)) < 0;
+  for (const glm::uvec3& triangle : geometry.mesh->triangles) {
+    Candidate candidate{{}, !geometry.mesh->closed};
+    for (int c = 0; c < 3; ++c) {
+      const glm::vec3& local = geometry.mesh->positions[triangle[c]];
+      candidate.corners[static_cast<std::size_t>(c)] = apply(view.world_to_view, to_world(geometry, local));
+    }
+    if (mirrored) std::swap(candidate.corners[1], candidate.corners[2]);
+    const double size = area(candidate.corners);
+    if (!std::isfinite(size) || size <= 0 || misses_window(view, candidate.corners)) continue;
+    if (candidate.both_sides || faces_light(view, candidate.corners)) candidates.push_back(candidate);
+  }
+}
+
+/// Uniform in a triangle from two numbers in [0, 1).
+glm::dvec3 point_in_triangle(const std::array<glm::dvec3, 3>& corners, const std::array<double, 2>& unit) {
+  const double root = std::sqrt(unit[0]);
+  return (1 - root) * corners[0] + root * (1 - unit[1]) * corners[1] + root * unit[1] * corners[2];
+}
+
+std::uint32_t texel_of(double value, double low, double high, std::uint32_t count) {
+  const double texel = std::floor((value - low) / (high - low) * count);
+  return static_cast<std::uint32_t>(std::clamp(texel, 0.0, static_cast<double>(count - 1)));
+}
+
+/// Uniform by volume in the window's pyramid between near and far: depth by z^3, then the slopes.
+glm::dvec3 point_in_pyramid(const View& view, double depth_unit, const std::array<double, 2>& unit) {
+  const double n = view.near_depth, f = view.far_depth;
+  const bool perspective = view.projection == Projection::perspective;
+  const double z =
+      perspective ? std::cbrt(n * n * n + depth_unit * (f * f * f - n * n * n)) : n + depth_unit * (f - n);
+  const double w = perspective ? z : 1.0;
+  return {(view.window[0] + unit[0] * (view.window[2] - view.window[0])) * w,
+          (view.window[1] + unit[1] * (view.window[3] - view.window[1])) * w, z};
+}
+
+bool within_domain(const PenumbraMap& map, const glm::dvec3& p) {
+  const View& view = map.views.front();
+  const double w = view.projection == Projection::perspective ? p.z : 1.0;
+  const std::uint32_t i = texel_of(p.x / w, view.window[0], view.window[2], view.width);
+  const std::uint32_t j = texel_of(p.y / w, view.window[1], view.window[3], view.height);
+  return p.z <= domain_end(map, i, j);
+}
+
+}  // namespace
+
+bool in_window(const View& view, const glm::dvec3& view_point) {
+  const std::array<double, 4> sides = side_distances(view, view_point);
+  return view_point.z > 0 && std::all_of(sides.begin(), sides.end(), [](double s) { return s >= 0; });
+}
+
+double domain_end(const PenumbraMap& map, std::uint32_t i, std::uint32_t j) {
+  const View& view = map.views.front();
+  const FunctionImage& image = map.images.front();
+  const std::uint32_t bx = i / kBlockSize, by = j / kBlockSize;
+  const FunctionBlock& block = image.blocks[std::size_t{by} * image.blocks_across() + bx];
+  if (block.domain_end.empty()) return view.far_depth;
+  const std::uint32_t width = block_extent(image.width, image.height, bx, by)[0];
+  const std::uint32_t texel = (j % kBlockSize) * width + i % kBlockSize;
+  return decode_depth(view, map.coding, block.domain_end[texel]);
+}
+
+std::vector<glm::dvec3> surface_probes(const Scene& scene, const View& view, std::uint32_t count,
+                                       std::uint64_t seed) {
+  std::vector<Candidate> candidates;
+  for (const Geometry& geometry : scene.geometry) {
+    if (geometry.receives) append_candidates(geometry, view, candidates);
+  }
+  std::vector<glm::dvec3> probes;
+  if (candidates.empty()) return probes;
+
+  // Triangles are drawn by area; what falls outside the window is drawn again.
+  std::vector<double> area_up_to;
+  double total = 0;
+  for (const Candidate& candidate : candidates) area_up_to.push_back(total += area(candidate.corners));
+  const RigidTransform view_to_world = inverse(view.world_to_view);
+  for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.size() < count; ++draw) {
+    const double at = hash_unit(seed, 2 * draw) * total;
+    const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
+    const Candidate& candidate = candidates[static_cast<std::size_t>(found - area_up_to.begin())];
+    const glm::dvec3 p = point_in_triangle(candidate.corners, hash_unit_pair(seed, 2 * draw + 1));
+    if (in_window(view, p) && p.z <= view.far_depth) probes.push_back(apply(view_to_world, p));
+  }
+  return probes;
+}
+
+std::vector<glm::dvec3> free_probes(const PenumbraMap& map, std::uint32_t count, std::uint64_t seed) {
+  const View& view = map.views.front();
+  const RigidTransform view_to_world = inverse(view.world_to_view);
+  std::vector<glm::dvec3> probes;
+  for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.size() < count; ++draw) {
+    const glm::dvec3 p =
+        point_in_pyramid(view, hash_unit(seed, 2 * draw), hash_unit_pair(seed, 2 * draw + 1));
+    if (within_domain(map, p)) probes.push_back(apply(view_to_world, p));
+  }
+  return probes;
+}
+
+}  // namespace pdsm

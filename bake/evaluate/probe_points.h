@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "pdsm/bake/scene.h"
+#include "pdsm/format/penumbra_map.h"
+
+/// Points at which a map is measured. All functions are pure: the same arguments give the same points.
+namespace pdsm {
+
+/// Up to `count` points on the receivers of `scene` that lie in the window of `view` and not beyond far,
+/// uniform by area. Closed meshes count where they face the light's centre, open ones everywhere. World
+/// space, metres. Fewer, down to none, when hardly any receiver surface qualifies.
+[[nodiscard]] std::vector<glm::dvec3> surface_probes(const Scene& scene, const View& view,
+                                                     std::uint32_t count, std::uint64_t seed);
+
+/// Up to `count` points in free space, uniform by volume in the window's pyramid between near and the end
+/// of the domain of the texel that holds them. World space, metres. Fewer when the domain is nearly empty.
+[[nodiscard]] std::vector<glm::dvec3> free_probes(const PenumbraMap& map, std::uint32_t count,
+                                                  std::uint64_t seed);
+
+/// Depth (metres) up to which the function of texel (i, j) of image 0 is exact.
+[[nodiscard]] double domain_end(const PenumbraMap& map, std::uint32_t i, std::uint32_t j);
+
+/// Whether a point in view space has slopes (perspective) or coordinates (orthographic) in the window.
+[[nodiscard]] bool in_window(const View& view, const glm::dvec3& view_point);
+
+}  // namespace pdsm

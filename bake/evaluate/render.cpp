@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "evaluate/colour.h"
+#include "evaluate/heat_map.h"
+#include "pdsm/runtime/look_up.h"
+#include "truth/light_points.h"
+#include "truth/shadow_rays.h"
+
+namespace pdsm {
+namespace {
+
+// Light of the studio in which scenes are shown; all in linear RGB, relative to a lit white surface.
+const glm::vec3 kSky(0.24F, 0.285F, 0.36F), kBounce(0.20F, 0.175F, 0.15F);
+const glm::vec3 kHorizon(0.185F, 0.215F, 0.26F), kZenith(0.075F, 0.09F, 0.115F);
+constexpr float kKeyStrength = 2.3F;
+/// Colours of the first, second, ... light: white ones look dull side by side.
+constexpr std::array<std::array<float, 3>, 4> kTints{
+    {{1.0F, 0.955F, 0.88F}, {0.80F, 0.89F, 1.0F}, {1.0F, 0.84F, 0.72F}, {0.90F, 1.0F, 0.92F}}};
+/// From where to where surfaces fade into the background, in radii of the focus.
+constexpr double kFadeBegin = 2.0, kFadeEnd = 6.0;
+
+double smooth_step(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+glm::vec3 background(const glm::dvec3& direction) {
+  return glm::mix(kHorizon, kZenith, static_cast<float>(smooth_step(0.0, 0.7, direction.y)));
+}
+
+/// A light ready to shade with.
+class Illumination {
+ public:
+  Illumination(const Scene& scene, const PictureLight& source, const Focus& focus,
+               const RenderOptions& options, const glm::vec3& colour)
+      : truth_samples_(options.truth_samples) {
+    const RigidTransform light_to_world = inverse(light_frame(*source.light));
+    direction_ = apply(light_to_world, glm::dvec3(0, 0, 1)) - apply(light_to_world, glm::dvec3(0));
+    // A 3 x 3 grid of equal areas, without randomness.
+    for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
+      for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
+        const std::array<double, 2> p = light_point(*source.light, {u, v});
+        points_.push_back(apply(light_to_world, glm::dvec3(p[0], p[1], 0)));
+      }
+    }
+    // The light is as bright as makes a white surface at the focus, turned to it, `colour`.
+    const glm::dvec3 to_light = points_[points_.size() / 2] - focus.centre;
+    const float at_focus = irradiance(focus.centre, glm::vec3(glm::normalize(to_light)));
+    colour_ = colour / (at_focus > 0 ? at_focus : irradiance_near(focus));
+    if (source.map != nullptr) look_up_.emplace(*source.map);
+    if (options.source != ShadowSource::map) {
+      rays_ = std::make_unique<ShadowRays>(scene, *source.light, source.near_depth);
+    }
+  }
+
+  /// Light that would arrive on a surface without casters.
+  [[nodiscard]] glm::vec3 unshadowed(const SurfacePoint& point) const {
+    return colour_ * irradiance(point.position, point.normal);
+  }
+  [[nodiscard]] double map_attenuation(const glm::dvec3& p) const {
+    return static_cast<double>(look_up_->at({p.x, p.y, p.z}, Filter::bilinear).attenuation);
+  }
+  [[nodiscard]] double true_attenuation(const glm::dvec3& p) const {
+    // One seed for all points: what error there is varies as smoothly as the scene, and is no noise.
+    return rays_->attenuation(p, truth_samples_, 0);
+  }
+
+ private:
+  [[nodiscard]] float irradiance(const glm::dvec3& position, const glm::vec3& normal) const {
+    double sum = 0;
+    for (const glm::dvec3& on_light : points_) {
+      const glm::dvec3 to_light = on_light - position;
+      const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
+      const double at_surface = glm::dot(glm::dvec3(normal), to_light),
+                   at_light = -glm::dot(direction_, to_light);
+      if (at_surface > 0 && at_light > 0) sum += at_surface * at_light / (squared * squared);
+    }
+    return static_cast<float>(sum / static_cast<double>(points_.size()));
+  }
+  /// For a light that does not shine on the focus: as if it were two radii in front of it.
+  [[nodiscard]] float irradiance_near(const Focus& focus) const {
+    const glm::dvec3 p = points_[points_.size() / 2] + 2 * focus.radius * direction_;
+    return irradiance(p, glm::vec3(-direction_));
+  }
+
+  std::uint32_t truth_samples_;
+  glm::dvec3 direction_{0};
+  std::vector<glm::dvec3> points_;
+  glm::vec3 colour_{1};
+  std::optional<PenumbraLookUp> look_up_;
+  std::unique_ptr<ShadowRays> rays_;
+};
+
+/// What one viewing ray adds to its pixel.
+struct Sample {
+  glm::vec3 light{0};
+  float difference = std::numeric_limits<float>::quiet_NaN();
+  float shade = 0;
+};
+
+class Renderer {
+ public:
+  Renderer(const Scene& scene, std::span<const PictureLight> lights, const RenderOptions& options)
+      : options_(options),
+        picture_(scene),
+        focus_(find_focus(scene)),
+        camera_(options.camera ? *options.camera : default_camera(scene, picture_, focus_)),
+        rays_(camera_, options.width, options.height) {
+    // Lights seldom all shine on one surface, so that together they are made brighter than one.
+    const auto count = static_cast<double>(std::max<std::size_t>(1, lights.size()));
+    const auto share = static_cast<float>(std::pow(count, -0.8));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const auto& tint = kTints[i % kTints.size()];
+      const glm::vec3 colour = kKeyStrength * share * glm::vec3(tint[0], tint[1], tint[2]);
+      lights_.push_back(std::make_unique<Illumination>(scene, lights[i], focus_, options, colour));
+    }
+  }
+
+  void render_row(std::uint32_t y, Picture& picture) const {
+    for (std::uint32_t x = 0; x < options_.width; ++x) render_pixel(x, y, picture);
+  }
+
+ private:
+  void render_pixel(std::uint32_t x, std::uint32_t y, Picture& picture) const {
+    const std::uint32_t n = options_.supersample;
+    glm::vec3 linear(0), display(0);
+    float difference = 0, shade = 0, on_surface = 0;
+    for (std::uint32_t i = 0; i < n * n; ++i) {
+      const Sample sample = trace(x + (i % n + 0.5) / n, y + (static_cast<double>(i / n) + 0.5) / n);
+      linear += sample.light;
+      display += display_values(film_curve(sample.light));
+      shade += sample.shade;
+      if (std::isnan(sample.difference)) continue;
+      difference += sample.difference;
+      ++on_surface;
+    }
+    const auto count = static_cast<float>(n * n);
+    picture.linear.at(x, y) = linear / count;
+    picture.display.at(x, y) = display / count;
+    const std::size_t pixel = std::size_t{y} * options_.width + x;
+    picture.shade[pixel] = shade / count;
+    if (!picture.difference.empty()) picture.difference[pixel] = difference / on_surface;  // NaN for 0 / 0
+  }
+
+  [[nodiscard]] Sample trace(double x, double y) const {
+    const glm::dvec3 direction = rays_.direction(x, y);
+    const std::optional<SurfacePoint> point = picture_.trace(camera_.eye, direction);
+    if (!point) return {background(direction)};
+    Sample sample = shade(*point);
+    const double away = glm::distance(point->position, focus_.centre) / focus_.radius;
+    const auto fade = static_cast<float>(smooth_step(kFadeBegin, kFadeEnd, away));
+    sample.light = glm::mix(sample.light, background(direction), fade);
+    return sample;
+  }
+
+  [[nodiscard]] Sample shade(const SurfacePoint& point) const {
+    Sample sample;
+    glm::vec3 arriving = glm::mix(kBounce, kSky, 0.5F + 0.5F * point.normal.y);
+    for (const auto& light : lights_) {
+      const glm::vec3 full = light->unshadowed(point);
+      const double v = attenuation(*light, point.position, sample);
+      arriving += full * static_cast<float>(1 - v);
+      sample.shade += full.y / kKeyStrength;
+    }
+    sample.shade = std::clamp(0.25F + 0.75F * sample.shade, 0.0F, 1.0F);
+    sample.light = point.colour * arriving;
+    return sample;
+  }
+
+  /// V to shade with; keeps the difference that is farthest from 0 over the lights.
+  [[nodiscard]] double attenuation(const Illumination& light, const glm::dvec3& p, Sample& sample) const {
+    if (options_.source == ShadowSource::truth) return light.true_attenuation(p);
+    const double by_map = light.map_attenuation(p);
+    if (options_.source == ShadowSource::map) return by_map;
+    const auto difference = static_cast<float>(by_map - light.true_attenuation(p));
+    if (!(std::abs(difference) <= std::abs(sample.difference))) sample.difference = difference;
+    return by_map;
+  }
+
+  RenderOptions options_;
+  PictureScene picture_;
+  Focus focus_;
+  Camera camera_;
+  CameraRays rays_;
+  std::vector<std::unique_ptr<Illumination>> lights_;
+};
+
+}  // namespace
+
+Picture render(const Scene& scene, std::span<const PictureLight> lights, const RenderOptions& options) {
+  const Renderer renderer(scene, lights, options);
+  const std::size_t pixels = std::size_t{options.width} * options.height;
+  Picture picture{RgbImage(options.width, options.height), RgbImage(options.width, options.height), {}, {}};
+  picture.shade.resize(pixels);
+  if (options.source == ShadowSource::difference) picture.difference.resize(pixels);
+  const auto rows = static_cast<std::int64_t>(options.height);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::int64_t y = 0; y < rows; ++y) renderer.render_row(static_cast<std::uint32_t>(y), picture);
+  return picture;
+}
+
+DifferenceSummary summarise_difference(std::span<const float> difference) {
+  DifferenceSummary summary;
+  double sum = 0, squares = 0;
+  for (const float value : difference) {
+    if (std::isnan(value)) continue;
+    const double d = std::abs(static_cast<double>(value));
+    ++summary.pixels;
+    sum += d;
+    squares += d * d;
+    summary.max = std::max(summary.max, d);
+  }
+  const auto pixels = static_cast<double>(std::max<std::uint64_t>(1, summary.pixels));
+  summary.mean_abs = sum / pixels;
+  summary.rms = std::sqrt(squares / pixels);
+  return summary;
+}
+
+RgbImage draw_difference(const Picture& picture) {
+  std::vector<float> magnitude(picture.difference.size());
+  std::transform(picture.difference.begin(), picture.difference.end(), magnitude.begin(),
+                 [](float d) { return std::isnan(d) ? -1.0F : std::abs(d); });
+  const DifferenceSummary summary = summarise_difference(picture.difference);
+  const std::string title = fmt::format("|map - truth|  mean {:.4f}  rms {:.4f}  max {:.3f}",
+                                        summary.mean_abs, summary.rms, summary.max);
+  return draw_heat_map(picture.linear.width, picture.linear.height, magnitude, picture.shade, title);
+}
+
+}  // namespace pdsm

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/light_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "truth/random.h"
+
+namespace pdsm {
+namespace {
+
+/// The unit square to the unit disk, ring by ring.
+std::array<double, 2> concentric_disk(const std::array<double, 2>& unit) {
+  const double a = 2 * unit[0] - 1, b = 2 * unit[1] - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  const bool along_a = std::abs(a) > std::abs(b);
+  const double radius = along_a ? a : b;
+  const double angle =
+      along_a ? std::numbers::pi / 4 * (b / a) : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace
+
+std::array<double, 2> light_point(const Light& light, const std::array<double, 2>& unit) {
+  if (const auto* rect = std::get_if<RectLight>(&light.shape)) {
+    return {(unit[0] - 0.5) * rect->width, (unit[1] - 0.5) * rect->height};
+  }
+  const std::array<double, 2> disk = concentric_disk(unit);
+  const double radius = std::get<DiskLight>(light.shape).radius;
+  return {disk[0] * radius, disk[1] * radius};
+}
+
+JitteredGrid::JitteredGrid(std::uint32_t count)
+    : count_(count),
+      rows_(std::max(1U, static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(count)))))),
+      shorter_(count / rows_),
+      longer_rows_(count % rows_) {}
+
+std::array<double, 2> JitteredGrid::point(std::uint32_t index, std::uint64_t seed) const {
+  // The first `longer_rows_` rows have one cell more than the others.
+  const std::uint32_t in_longer = longer_rows_ * (shorter_ + 1);
+  const bool longer = index < in_longer;
+  const std::uint32_t cells = longer ? shorter_ + 1 : shorter_;
+  const std::uint32_t within = longer ? index : index - in_longer;
+  const std::uint32_t first = index - within % cells;
+
+  const std::array<double, 2> jitter = hash_unit_pair(seed, index);
+  return {(within % cells + jitter[0]) / cells, (first + cells * jitter[1]) / count_};
+}
+
+}  // namespace pdsm

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "pdsm/bake/scene.h"
+
+namespace pdsm {
+
+/// Where the unit square goes on a light, in its own plane (light x and y, metres); equal areas stay equal.
+/// Rect: scaled. Disk: the concentric map, which keeps strata compact.
+/// Paper: Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997.
+[[nodiscard]] std::array<double, 2> light_point(const Light& light, const std::array<double, 2>& unit);
+
+/// A stratified jittered set of any size in the unit square. The square is cut into about sqrt(count) rows
+/// and each row into cells, so that every cell has area 1/count; a row with one cell more is that much
+/// taller. A square number gives the plain n x n grid.
+class JitteredGrid {
+ public:
+  explicit JitteredGrid(std::uint32_t count);
+
+  /// Point `index`, 0 .. count - 1, row by row.
+  [[nodiscard]] std::array<double, 2> point(std::uint32_t index, std::uint64_t seed) const;
+
+ private:
+  std::uint32_t count_, rows_, shorter_, longer_rows_;
+};
+
+}  // namespace pdsm

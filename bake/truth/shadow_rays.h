@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "pdsm/bake/scene.h"
+#include "pdsm/format/penumbra_map.h"
+#include "truth/world_scene.h"
+
+namespace pdsm {
+
+/// Attenuation by shadow rays: the truth that maps are measured against. It shares no visibility code and
+/// no light samples with the baker. All casters of the scene block, window or not.
+class ShadowRays {
+ public:
+  /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never
+  /// blocks. Throws Error as light_frame() does, or (resource) when Embree fails.
+  ShadowRays(const Scene& scene, const Light& light, double near_depth);
+
+  /// Share of `samples` (>= 1) light points that casters hide from `world_point` (metres); 0 behind the
+  /// light. Rays leave the point at 1e-4 of the distance to the light point. A pure function of its
+  /// arguments; any thread.
+  [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
+                                   std::uint64_t seed) const;
+
+  /// Of many points on all threads. Point n takes the seed hash_bits(seed, n), or with `same_seed` all take
+  /// `seed`. The result does not depend on the number of threads.
+  [[nodiscard]] std::vector<double> attenuations(std::span<const glm::dvec3> world_points,
+                                                 std::uint32_t samples, std::uint64_t seed,
+                                                 bool same_seed = false) const;
+
+ private:
+  struct Packet;
+  [[nodiscard]] int count_blocked(const Packet& packet) const;
+
+  Light light_;
+  RigidTransform world_to_light_, light_to_world_;
+  double emitter_depth_;  ///< light-space z up to which nothing blocks
+  WorldScene casters_;
+};
+
+}  // namespace pdsm

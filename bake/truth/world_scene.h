@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "pdsm/bake/scene.h"
+
+namespace pdsm {
+
+/// Which triangle of a scene, given by its corners in world space, goes into a WorldScene.
+using KeepTriangle = std::function<bool(const std::array<glm::dvec3, 3>&)>;
+
+/// A scene's triangles in Embree, in world space about the centre of their bounds, so that a scene far
+/// from the origin loses no digits. It has nothing in common with the baker's own light-space scene: what
+/// is measured and what measures must not share their mistakes. Any thread may trace once it stands.
+/// Geometry n of the scene has the geometry id n; its triangles keep their numbers unless some are left out.
+class WorldScene {
+ public:
+  /// Holds the geometry that `keep` accepts. Throws Error (resource) when Embree fails.
+  WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep,
+             const KeepTriangle& keep_triangle = {});
+
+  [[nodiscard]] RTCScene handle() const { return scene_.get(); }
+  /// What was subtracted from world space, metres.
+  [[nodiscard]] const glm::dvec3& centre() const { return centre_; }
+
+ private:
+  struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+
+  void attach(const Geometry& geometry, unsigned id, const KeepTriangle& keep_triangle);
+
+  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
+  std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
+  glm::dvec3 centre_{0};
+};
+
+/// A point of a geometry's local space in the world, metres.
+[[nodiscard]] glm::dvec3 to_world(const Geometry& geometry, const glm::vec3& position);
+
+}  // namespace pdsm
