@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// `info` and `check`.
+#include <nlohmann/json.hpp>
+
+#include "scratch_scene.h"
+
+namespace pdsm {
+namespace {
+
+class Inspect : public ScratchScene {
+ protected:
+  Inspect() { bake_small("map.pdsm"); }
+};
+
+TEST_F(Inspect, InfoTellsWhatIsThere) {
+  const Outcome outcome = run({"info", "map.pdsm"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* word : {"perspective 32 x 32", "window", "depth 16 bits", "samples    16",
+                           "texels     1024", "pieces", "modelled", "left out", "name key", "BLCK"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
+  }
+}
+
+TEST_F(Inspect, InfoJsonAddsUp) {
+  const Outcome outcome = run({"info", "map.pdsm", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto info = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(info["views"][0]["width"], 32);
+  EXPECT_EQ(info["samples"], 16);
+  EXPECT_EQ(info["functions"]["texels"], 1024);
+  EXPECT_GT(info["functions"]["empty_texels"], 0);
+  EXPECT_LT(info["functions"]["empty_texels"], 1024);
+  EXPECT_EQ(info["metadata"]["light"]["name"], "key");
+  EXPECT_EQ(info["bytes"]["file"], contents("map.pdsm").size());
+  std::uint64_t stored = 0;
+  for (const auto& part : info["bytes"]["parts"]) stored += part["stored"].get<std::uint64_t>();
+  EXPECT_LT(stored, info["bytes"]["file"]);  // header and table are no chunks
+  EXPECT_GT(stored, 0U);
+}
+
+TEST_F(Inspect, CheckSaysOk) {
+  const Outcome outcome = run({"check", "map.pdsm"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out, "ok\n");
+}
+
+TEST_F(Inspect, CheckNamesTheFirstFault) {
+  const std::string good = contents("map.pdsm");
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 4);
+  for (const std::string& bad :
+       {std::string(), good.substr(0, 100), good + 'x', flipped, std::string("hello")}) {
+    write_file("bad.pdsm", bad);
+    const Outcome outcome = run({"check", "bad.pdsm"});
+    expect_exit(outcome, 3);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("bad.pdsm:offset ", 0), 0U) << outcome.err;
+    EXPECT_NE(outcome.err.find(": fault "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(": expected "), std::string::npos) << outcome.err;
+    expect_exit(run({"info", "bad.pdsm"}), 3);
+  }
+}
+
+TEST_F(Inspect, NoFileIsBadInput) {
+  for (const std::string command : {"info", "check"}) {
+    for (const std::string name : {"missing", ".", "/dev/null", ""}) {
+      expect_exit(run({command, name}), 3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pdsm

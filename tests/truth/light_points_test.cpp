@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/light_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "plates.h"
+
+namespace pdsm {
+namespace {
+
+TEST(JitteredGrid, SquareNumbersFillEveryCellOnce) {
+  for (const std::uint32_t side : {1U, 2U, 7U, 16U, 64U}) {
+    const JitteredGrid grid(side * side);
+    std::set<std::pair<int, int>> cells;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+      const auto [x, y] = grid.point(i, 3);
+      ASSERT_GE(std::min(x, y), 0);
+      ASSERT_LT(std::max(x, y), 1);
+      cells.emplace(static_cast<int>(x * side), static_cast<int>(y * side));
+    }
+    EXPECT_EQ(cells.size(), std::size_t{side} * side) << side;
+  }
+}
+
+TEST(JitteredGrid, EveryNumberIsStratified) {
+  for (std::uint32_t count = 1; count <= 300; ++count) {
+    const JitteredGrid grid(count);
+    std::uint32_t left = 0, low = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto [x, y] = grid.point(i, 4);
+      ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1) << count << " " << i;
+      left += x < 0.5 ? 1 : 0;
+      low += y < 0.5 ? 1 : 0;
+    }
+    // The line x = 1/2 crosses one cell of each row; y = 1/2 crosses the cells of one row.
+    const double strata = std::sqrt(count) + 2;
+    EXPECT_NEAR(left, 0.5 * count, strata) << count;
+    EXPECT_NEAR(low, 0.5 * count, strata) << count;
+  }
+}
+
+TEST(JitteredGrid, SeedsDiffer) {
+  const JitteredGrid grid(16);
+  EXPECT_EQ(grid.point(5, 1), grid.point(5, 1));
+  EXPECT_NE(grid.point(5, 1), grid.point(5, 2));
+}
+
+TEST(LightPoint, RectFillsTheRect) {
+  const Light light = light_at_origin(RectLight{4, 2});
+  EXPECT_EQ(light_point(light, {0, 0}), (std::array<double, 2>{-2, -1}));
+  EXPECT_EQ(light_point(light, {0.5, 0.5}), (std::array<double, 2>{0, 0}));
+  EXPECT_EQ(light_point(light, {0.75, 0.25}), (std::array<double, 2>{1, -0.5}));
+}
+
+TEST(LightPoint, DiskKeepsAreas) {
+  // A grid of equal cells: the share of points within radius r is r^2, up to the cells that the circle cuts.
+  constexpr std::uint32_t kSide = 256;
+  const Light light = light_at_origin(DiskLight{1});
+  for (const double radius : {0.25, 0.5, 0.9, 1.0}) {
+    std::uint32_t inside = 0, right = 0;
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+      const auto p =
+          light_point(light, {(i % kSide + 0.5) / kSide, (static_cast<double>(i / kSide) + 0.5) / kSide});
+      inside += std::hypot(p[0], p[1]) <= radius ? 1 : 0;
+      right += p[0] > 0.5 ? 1 : 0;
+    }
+    EXPECT_NEAR(inside, radius * radius * kSide * kSide, 4 * kSide) << radius;
+    EXPECT_NEAR(right, 0.195501 * kSide * kSide, 4 * kSide);  // (acos(1/2) - 1/2 sqrt(3/4)) / pi
+  }
+}
+
+}  // namespace
+}  // namespace pdsm

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/verify.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+
+#include "evaluate/probe_points.h"
+#include "plates.h"
+
+namespace pdsm {
+namespace {
+
+/// A square light over a plate and a floor.
+Scene plate_over_floor() {
+  Scene scene;
+  scene.lights = {light_at_origin(RectLight{1, 1})};
+  scene.geometry = {plate(-0.5, -0.5, 0.5, 0.5, 4), plate(-40, -40, 40, 40, 8)};
+  return scene;
+}
+
+/// A map of `size` texels whose functions all are the same.
+PenumbraMap uniform_map(std::uint32_t size, const std::vector<FunctionVertex>& function) {
+  PenumbraMap map;
+  View view;
+  view.window = {-0.3, -0.3, 0.3, 0.3};
+  view.near_depth = 2;
+  view.far_depth = 8;
+  view.width = view.height = size;
+  map.views = {view};
+  FunctionImage image;
+  image.width = image.height = size;
+  FunctionBlock block;
+  const std::uint32_t words = map.coding.words_per_vertex();
+  for (std::uint32_t texel = 0; texel < size * size; ++texel) {
+    block.first.push_back(static_cast<std::uint32_t>(block.words.size()) / words);
+    for (const FunctionVertex& vertex : function) {
+      block.words.resize(block.words.size() + words);
+      pack_vertex(map.coding, vertex, &block.words[block.words.size() - words]);
+    }
+  }
+  block.first.push_back(static_cast<std::uint32_t>(block.words.size()) / words);
+  image.blocks = {block};
+  map.images = {image};
+  return map;
+}
+
+VerifyOptions few_points() {
+  VerifyOptions options;
+  options.points = 400;
+  options.samples = 256;
+  return options;
+}
+
+TEST(Verify, EmptyMapErrsByTheTruth) {
+  // V' = 0 everywhere: the error is -V, so bias = -mean_abs_error, and no point errs by more than 1.
+  const Scene scene = plate_over_floor();
+  const VerifyResult result = verify(uniform_map(8, {}), scene, scene.lights[0], few_points());
+  EXPECT_EQ(result.points, 400U);
+  EXPECT_EQ(result.surface_points, 200U);
+  EXPECT_EQ(result.past_end, 0U);
+  EXPECT_GT(result.shadowed_points, 20U);
+  EXPECT_LT(result.shadowed_points, 400U);
+  EXPECT_GT(result.mean_abs_error, 0.2);
+  EXPECT_DOUBLE_EQ(result.bias, -result.mean_abs_error);
+  EXPECT_GE(result.rms_error, result.mean_abs_error);
+  EXPECT_GE(result.max_error, result.p99_error);
+  EXPECT_LE(result.max_error, 1);
+  EXPECT_GT(result.truth_standard_error, 0);
+  EXPECT_LT(result.truth_standard_error, 0.05);
+}
+
+TEST(Verify, FalseShadowCountsInFullAndDilutesNothing) {
+  // V' = 1 from near on: a lit point errs by 1. Sum |error| = sum (1 - V) over points behind near.
+  const Scene scene = plate_over_floor();
+  const PenumbraMap dark = uniform_map(8, {{0, 255, 255}});
+  const VerifyResult result = verify(dark, scene, scene.lights[0], few_points());
+  const VerifyResult empty = verify(uniform_map(8, {}), scene, scene.lights[0], few_points());
+  const auto shadowed = static_cast<double>(empty.shadowed_points);
+  const double sum_truth = empty.mean_abs_error * shadowed;
+  EXPECT_NEAR(result.mean_abs_error * shadowed, 400 - sum_truth, 1e-6);
+  EXPECT_NEAR(result.bias, result.mean_abs_error, 1e-12);
+  EXPECT_EQ(result.max_error, 1);
+}
+
+TEST(Verify, LitSceneDividesByOne) {
+  Scene scene = plate_over_floor();
+  scene.geometry.erase(scene.geometry.begin());
+  const VerifyResult lit = verify(uniform_map(8, {}), scene, scene.lights[0], few_points());
+  EXPECT_EQ(lit.shadowed_points, 0U);
+  EXPECT_EQ(lit.mean_abs_error, 0);
+  const VerifyResult dark = verify(uniform_map(8, {{0, 255, 255}}), scene, scene.lights[0], few_points());
+  EXPECT_NEAR(dark.mean_abs_error, 400, 1e-6);
+}
+
+TEST(Verify, CountsPastEnds) {
+  const Scene scene = plate_over_floor();
+  PenumbraMap map = uniform_map(8, {});
+  // The domain ends above the floor: its surface points are past it, those of the plate are not.
+  map.images[0].blocks[0].domain_end.assign(64, 0xC000);
+  const VerifyResult result = verify(map, scene, scene.lights[0], few_points());
+  EXPECT_GT(result.past_end, 150U);
+  EXPECT_LE(result.past_end, 200U);
+}
+
+TEST(Verify, ThreadsDoNotMatter) {
+  const Scene scene = plate_over_floor();
+  const int all = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const VerifyResult one = verify(uniform_map(8, {}), scene, scene.lights[0], few_points());
+  omp_set_num_threads(4);
+  const VerifyResult four = verify(uniform_map(8, {}), scene, scene.lights[0], few_points());
+  omp_set_num_threads(all);
+  EXPECT_EQ(one.mean_abs_error, four.mean_abs_error);
+  EXPECT_EQ(one.rms_error, four.rms_error);
+}
+
+TEST(SurfaceProbes, LieOnReceiversInTheWindow) {
+  Scene scene = plate_over_floor();
+  const View view = uniform_map(8, {}).views[0];
+  std::uint32_t on_plate = 0;
+  for (const glm::dvec3& p : surface_probes(scene, view, 1000, 5)) {
+    EXPECT_TRUE(in_window(view, p)) << p.x << " " << p.y << " " << p.z;
+    const bool plate = std::abs(p.z - 4) < 1e-6;
+    EXPECT_TRUE(plate || std::abs(p.z - 8) < 1e-6) << p.z;
+    on_plate += plate ? 1 : 0;
+  }
+  // By area: the plate has 1 of 1 + 4.8^2 square metres. Five standard deviations of a binomial.
+  const double share = 1 / (1 + 4.8 * 4.8);
+  EXPECT_NEAR(on_plate, 1000 * share, 5 * std::sqrt(1000 * share));
+
+  scene.geometry[1].receives = false;
+  for (const glm::dvec3& p : surface_probes(scene, view, 100, 5)) EXPECT_NEAR(p.z, 4, 1e-6);
+  scene.geometry[0].receives = false;
+  EXPECT_TRUE(surface_probes(scene, view, 100, 5).empty());
+}
+
+TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
+  Scene scene;
+  scene.geometry = {sphere({0, 0, 5}, 1, 24)};
+  ASSERT_TRUE(scene.geometry[0].mesh->closed);
+  const View view = uniform_map(8, {}).views[0];
+  const auto farthest = [&] {
+    double z = 0;
+    for (const glm::dvec3& p : surface_probes(scene, view, 500, 6)) z = std::max(z, p.z);
+    return z;
+  };
+  // The horizon of a unit sphere seen from 5 m lies at z = 5 - 1/5; a facet of 7.5 degrees may reach beyond.
+  EXPECT_LT(farthest(), 4.8 + 0.14);
+  EXPECT_GT(farthest(), 4.5);
+  // Mirrored, it still does.
+  scene.geometry[0].local_to_world[0][0] = -1;
+  EXPECT_LT(farthest(), 4.8 + 0.14);
+  EXPECT_GT(farthest(), 4.5);
+}
+
+TEST(FreeProbes, FillTheDomain) {
+  PenumbraMap map = uniform_map(8, {});
+  std::uint32_t deep = 0;
+  for (const glm::dvec3& p : free_probes(map, 2000, 7)) {
+    EXPECT_TRUE(in_window(map.views[0], p));
+    EXPECT_TRUE(p.z >= 2 && p.z <= 8) << p.z;
+    deep += p.z > 6 ? 1 : 0;
+  }
+  const double share = (512.0 - 216.0) / (512.0 - 8.0);  // by volume
+  EXPECT_NEAR(deep, 2000 * share, 5 * std::sqrt(2000 * share * (1 - share)));
+
+  // Texel (i, j) ends at its own depth.
+  map.images[0].blocks[0].domain_end.assign(64, 0x8000);
+  map.images[0].blocks[0].domain_end[0] = 0xFFFF;
+  EXPECT_NEAR(domain_end(map, 1, 0), 5, 1e-3);
+  EXPECT_EQ(domain_end(map, 0, 0), 8);
+  for (const glm::dvec3& p : free_probes(map, 500, 8)) {
+    const bool first = p.x / p.z < -0.225 && p.y / p.z < -0.225;
+    EXPECT_LE(p.z, first ? 8 : 5.0001);
+  }
+}
+
+}  // namespace
+}  // namespace pdsm
