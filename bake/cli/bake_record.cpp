@@ -39,13 +39,22 @@ Json light_json(const Light& light) {
   return json;
 }
 
+const char* receivers_name(Receivers receivers) {
+  switch (receivers) {
+    case Receivers::all: return "all";
+    case Receivers::surfaces: return "surfaces";
+    case Receivers::volume: break;
+  }
+  return "volume";
+}
+
 Json options_json(const BakeOptions& options, const BakeReport& report) {
   return {{"samples", report.samples},
           {"resolution", {options.width, options.height}},
           {"map_resolution", {report.map_width, report.map_height}},
           {"epsilon", options.epsilon},
           {"walk", walk_name(options.walk)},
-          {"receivers", options.receivers == Receivers::all ? "all" : "volume"},
+          {"receivers", receivers_name(options.receivers)},
           {"points", options.points == PointSet::lattice ? "lattice" : "jittered"},
           {"seed", options.seed}};
 }

@@ -104,7 +104,7 @@ Camera default_camera(const Scene& scene, const PictureScene& picture, const Foc
   const std::vector<glm::dvec3> points = focus_points(scene, focus);
   std::vector<std::pair<Camera, double>> seen;
   double most = 0;
-  for (const double elevation : {27.0, 52.0}) {
+  for (const double elevation : {27.0, 10.0, 52.0}) {
     for (const double azimuth : {35.0, -35.0, 0.0, 90.0, -90.0, 145.0, -145.0, 180.0}) {
       const Camera camera = orbit_camera(focus, azimuth * kDegrees, elevation * kDegrees);
       const auto count = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& point) {
@@ -114,7 +114,7 @@ Camera default_camera(const Scene& scene, const PictureScene& picture, const Foc
       most = std::max(most, seen.back().second);
     }
   }
-  constexpr double kNearlyBest = 0.75;
+  constexpr double kNearlyBest = 0.85;
   return std::find_if(seen.begin(), seen.end(), [&](const auto& s) { return s.second >= kNearlyBest * most; })
       ->first;
 }

@@ -167,10 +167,11 @@ class FunctionFit {
 }  // namespace
 
 void fit_function(const StepFunction& function, const FitRules& rules, FitWorkspace& room,
-                  std::vector<FunctionVertex>& vertices) {
+                  std::vector<FunctionVertex>& vertices, const std::vector<CodeBand>* bands) {
   vertices.clear();
   if (function.depth.empty()) return;
   build_tube(function, rules, room.tube_room, room.tube);
+  if (bands != nullptr) relax_tube(rules, *bands, room.tube);
   FunctionFit(function, rules, room, vertices).run();
 }
 

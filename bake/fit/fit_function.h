@@ -22,7 +22,8 @@ struct FitWorkspace {
 /// in the tube (tube.h): each piece reaches as far as it can, the first being the 0 that needs no vertex,
 /// the last a constant that holds for ever. Within that, each piece is the least-squares line, moved into
 /// the tube where it leaves it. Replaces the contents of `vertices`. Deterministic.
+/// With `bands` (see relax_tube) the tube holds in these alone.
 void fit_function(const StepFunction& function, const FitRules& rules, FitWorkspace& room,
-                  std::vector<FunctionVertex>& vertices);
+                  std::vector<FunctionVertex>& vertices, const std::vector<CodeBand>* bands = nullptr);
 
 }  // namespace pdsm

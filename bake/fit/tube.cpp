@@ -88,4 +88,26 @@ void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspa
   if (at != kNever) tube.back() = {tube.back().begin, rules.lower[last_count], rules.upper[last_count]};
 }
 
+void relax_tube(const FitRules& rules, std::span<const CodeBand> bands, std::vector<TubeRun>& tube) {
+  const std::int64_t free_high = kValueScale * std::int64_t{rules.coding.value_max};
+  std::vector<TubeRun> relaxed;
+  const auto append = [&relaxed](const TubeRun& run) {
+    if (!relaxed.empty() && relaxed.back().begin == run.begin) relaxed.pop_back();
+    const bool goes_on = !relaxed.empty() && relaxed.back().low == run.low && relaxed.back().high == run.high;
+    if (!goes_on) relaxed.push_back(run);
+  };
+  const auto runs_from = [&tube](std::int64_t code) {
+    return std::prev(std::upper_bound(tube.begin(), tube.end(), code,
+                                      [](std::int64_t x, const TubeRun& run) { return x < run.begin; }));
+  };
+  append({0, 0, free_high});
+  for (const CodeBand& band : bands) {
+    for (auto run = runs_from(band.first); run != tube.end() && run->begin < band.last; ++run) {
+      append({std::max(run->begin, band.first), run->low, run->high});
+    }
+    append({band.last, 0, free_high});
+  }
+  tube = std::move(relaxed);
+}
+
 }  // namespace pdsm

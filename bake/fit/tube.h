@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "events/accumulate.h"
@@ -27,5 +28,14 @@ struct TubeWorkspace {
 /// The tube of V. Beyond its last step V is held, as the domain rule asks. O(steps).
 void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspace& room,
                 std::vector<TubeRun>& tube);
+
+/// Depth codes [first, last].
+struct CodeBand {
+  std::int64_t first = 0, last = 0;
+};
+
+/// Lifts the bounds everywhere but in `bands`, which are in order and do not overlap: there V' may be any
+/// attenuation.
+void relax_tube(const FitRules& rules, std::span<const CodeBand> bands, std::vector<TubeRun>& tube);
 
 }  // namespace pdsm

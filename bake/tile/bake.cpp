@@ -155,13 +155,16 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   const std::uint32_t stride = std::max(1u, count / kTrialSamples);
   const TileInput trial = job.tile_input(stride);
   const double scale = static_cast<double>(count) / static_cast<double>(trial.samples.size());
-  const double start = omp_get_wtime();
-  TileRun run(job, trial, [](auto, auto, auto, FunctionBlock&&) {}, {});
+  // The trial's blocks are encoded as a bake's are, then dropped.
+  TileRun run(job, trial, [&](auto, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions) {
+    (void)encode_block(job.rules.coding, width, height, functions);
+  }, {});
   const TileStatistics done = run.run();
+  const double per_sample = (done.trace + done.walk + done.accumulate + done.fit) / job.options.threads;
   BakePrediction prediction;
-  prediction.rays = job.fitted.nothing_casts ? 0 : job.plan.rays;
+  prediction.rays = static_cast<std::uint64_t>(static_cast<double>(done.rays) * scale);
   prediction.events = static_cast<std::uint64_t>(static_cast<double>(done.events) * scale);
-  prediction.seconds = job.seconds_bvh + (omp_get_wtime() - start) * scale;
+  prediction.seconds = job.seconds_bvh + done.prepare + per_sample * scale;
   const std::uint64_t tile_events = 8 * prediction.events / std::max<std::uint64_t>(1, job.plan.tiles.size());
   prediction.memory_bytes = job.plan.map_bytes + job.plan.output_bytes + std::min(job.plan.event_limit, tile_events);
   prediction.tile = job.plan.edge;

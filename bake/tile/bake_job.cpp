@@ -131,6 +131,9 @@ std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
   list.push_back({"domain ends", job.options.receivers != Receivers::all,
                   job.options.receivers != Receivers::all ? "functions end at the last receiver on each ray"
                                                           : "--receivers all asks for functions exact to far"});
+  list.push_back({"surfaces alone", job.options.receivers == Receivers::surfaces,
+                  job.options.receivers == Receivers::surfaces ? "--receivers surfaces leaves free space out"
+                                                               : "anything may receive in free space"});
   list.push_back({"fitted window", fitted.window_fitted, fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
   list.push_back({"fitted near", fitted.near_fitted, fitted.near_fitted ? "nearest caster in the hull of light and window" : "given by the scene"});
   list.push_back({"fitted far", fitted.far_fitted, fitted.far_fitted ? "last receiver in the window" : "given by the scene"});

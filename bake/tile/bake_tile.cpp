@@ -15,6 +15,7 @@
 #include "tile/parallel_failure.h"
 #include "tile/shadow_cells.h"
 #include "trace/domain_ends.h"
+#include "trace/surface_bands.h"
 #include "walk/general_walk.h"
 #include "walk/ray_packets.h"
 #include "walk/shift_walk.h"
@@ -31,6 +32,7 @@ struct TileBlock {
   std::uint32_t index = 0;            ///< in the map
   std::vector<float> domain_ends;
   std::vector<RayPacket> packets;     ///< by the shift law only
+  std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
 };
 
 /// What one thread owns while walking.
@@ -63,9 +65,32 @@ std::size_t texel_count(const TexelRect& rect) {
   return static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0);
 }
 
+/// Depth code of a band's border, rounded to the code below.
+std::int64_t band_code(const FitRules& rules, float depth) {
+  return static_cast<std::int64_t>(std::clamp(std::floor(rules.code_of(depth)), 0.0, static_cast<double>(rules.coding.depth_max())));
+}
+
+std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const TexelRect& rect) {
+  // Within delta and the bias of a surface, its own shadow begins.
+  const double margin = input.bias + input.rules.tolerance;
+  std::vector<std::vector<CodeBand>> result;
+  for (const auto& bands : find_surface_bands(input.scene, input.grid, rect, margin)) {
+    auto& codes = result.emplace_back();
+    for (const DepthBand& band : bands) {
+      const std::int64_t last_code = input.rules.coding.depth_max();
+      const CodeBand code{band_code(input.rules, band.first), std::min(band_code(input.rules, band.last) + 1, last_code)};
+      if (code.first >= code.last) continue;
+      if (!codes.empty() && code.first <= codes.back().last) codes.back().last = std::max(codes.back().last, code.last);
+      else codes.push_back(code);
+    }
+  }
+  return result;
+}
+
 void prepare_block(const TileInput& input, TileBlock& block) {
   block.domain_ends.assign(texel_count(block.rect), std::numeric_limits<float>::infinity());
   if (input.receivers != Receivers::all) find_domain_ends(input.scene, input.grid, block.rect, block.domain_ends);
+  if (input.receivers == Receivers::surfaces) block.bands = find_code_bands(input, block.rect);
 }
 
 /// Leaves out the packets of rays that nothing can darken.
@@ -197,7 +222,7 @@ FunctionBlock fit_block(const TileInput& input, const TileBlock& block, std::spa
       const double before = omp_get_wtime();
       accumulate(std::span(thread.events.keys).subspan(first, last - first), thread.function);
       accumulated += omp_get_wtime() - before;
-      fit_function(thread.function, input.rules, thread.room, thread.vertices);
+      fit_function(thread.function, input.rules, thread.room, thread.vertices, block.bands.empty() ? nullptr : &block.bands[t]);
     }
     thread.statistics.empty_texels += thread.vertices.empty() ? 1 : 0;
     thread.statistics.pieces += thread.vertices.size();
@@ -227,7 +252,9 @@ class TileJob {
   }
 
   TileOutcome run(TileStatistics& statistics) {
+    const double start = omp_get_wtime();
     prepare();
+    statistics.prepare += omp_get_wtime() - start;
     if (!input_.nothing_casts) walk();
     if (cancelled_) return TileOutcome::cancelled;
     if (budget_.exceeded()) return TileOutcome::events_exceeded;
@@ -329,6 +356,7 @@ class TileJob {
 }  // namespace
 
 void TileStatistics::add(const TileStatistics& other) {
+  prepare += other.prepare;
   trace += other.trace;
   walk += other.walk;
   accumulate += other.accumulate;

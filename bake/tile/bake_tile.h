@@ -31,6 +31,7 @@ struct TileInput {
 
 /// What a tile did; sums over its threads.
 struct TileStatistics {
+  double prepare = 0;                                   ///< wall seconds before the first sample
   double trace = 0, walk = 0, accumulate = 0, fit = 0;  ///< thread seconds
   std::uint64_t rays = 0, events = 0, pieces = 0, empty_texels = 0, event_bytes = 0;
   double slope_bias_sum = 0, slope_bias_max = 0;

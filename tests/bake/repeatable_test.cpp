@@ -33,6 +33,7 @@ BakeOptions options_for(const Grid& grid) {
   BakeOptions options = small_options(grid.width, grid.height, 24);
   options.map_width = grid.map_width;
   options.map_height = grid.map_height;
+  options.threads = 2;
   return options;
 }
 

@@ -109,7 +109,7 @@ TEST_F(Usage, SizesAndWordsAreStrict) {
     expect_refused(run({"render", "a", "b", "-o", "x.png", "--size", value}), "--size", value);
   }
   for (const std::string option : {"--walk", "--receivers", "--points", "--isa"}) {
-    for (const std::string value : {"", "surfaces", "EXACT", "exact ", "0"}) {
+    for (const std::string value : {"", "nowhere", "EXACT", "exact ", "0"}) {
       expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", option, value}), option, value);
     }
   }

@@ -142,6 +142,19 @@ TEST(RoundTrip, FileHoldsWhatSerializeGives) {
   EXPECT_EQ(folder.names().size(), 1U);
 }
 
+/// The writer's buffer holds a megabyte.
+TEST(RoundTrip, FileOfSeveralMegabytes) {
+  const testing::ScratchFolder folder;
+  MapShape shape;
+  shape.coding = {32, 32, 1, 255};
+  shape.width = shape.height = 200;
+  shape.empty_share = 0;
+  const PenumbraMap map = random_map(11, shape);
+  const std::uint64_t size = write_map(map, folder.path() / "map", kRaw);
+  EXPECT_GT(size, std::uint64_t{2} << 20);
+  EXPECT_EQ(testing::file_content(folder.path() / "map"), serialize_map(map, kRaw));
+}
+
 TEST(RoundTrip, EncodedBlocksGiveTheSameFile) {
   const testing::ScratchFolder folder;
   MapShape shape;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -22,6 +24,25 @@ TEST(JitteredGrid, SquareNumbersFillEveryCellOnce) {
       cells.emplace(static_cast<int>(x * side), static_cast<int>(y * side));
     }
     EXPECT_EQ(cells.size(), std::size_t{side} * side) << side;
+  }
+}
+
+TEST(JitteredGrid, JitterFillsTheCell) {
+  constexpr std::uint32_t kSide = 64;
+  const JitteredGrid grid(kSide * kSide);
+  std::array<double, 2> least{1, 1}, most{0, 0};
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const std::array<double, 2> p = grid.point(i, 5);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double within = p[axis] * kSide - std::floor(p[axis] * kSide);
+      least[axis] = std::min(least[axis], within);
+      most[axis] = std::max(most[axis], within);
+    }
+  }
+  // A hundredth at either end stays empty with probability 0.99^4096 = 1e-18.
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    EXPECT_LT(least[axis], 0.01) << axis;
+    EXPECT_GT(most[axis], 0.99) << axis;
   }
 }
 

@@ -216,6 +216,8 @@ TEST(ShadowRays, EmitterNeverBlocks) {
   EXPECT_EQ(rays_through({plate(-3, -3, 3, 3, 0)}, light, near_depth).attenuation(p, 256, 0), 0);
   EXPECT_EQ(rays_through({plate(-3, -3, 3, 3, 0.9 * emitter)}, light, near_depth).attenuation(p, 256, 0), 0);
   EXPECT_EQ(rays_through({plate(-3, -3, 3, 3, 0.01)}, light, near_depth).attenuation(p, 256, 0), 1);
+  // From so far away, a float can't tell the ray's end from the panel.
+  EXPECT_EQ(rays_through({plate(-3, -3, 3, 3, 0)}, light, 0.1).attenuation({0.3, 0.1, 9000}, 256, 0), 0);
 }
 
 TEST(ShadowRays, CasterThroughTheEmitterBlocksInFrontOnly) {

@@ -51,7 +51,7 @@ BakeOptions small_options(std::uint32_t width, std::uint32_t height, std::uint32
   options.width = width;
   options.height = height;
   options.samples = samples;
-  options.threads = 2;
+  options.threads = 1;
   return options;
 }
 

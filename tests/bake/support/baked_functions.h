@@ -46,7 +46,7 @@ class BakedFunctions {
 /// along each axis: half a texel, and half a texel more across the midpoint line's major axis.
 [[nodiscard]] inline double texel_reach(Walk walk) { return walk == Walk::exact ? 0.5 : 1.0; }
 
-/// Options that most tests start from: small, all threads, the map as fine as asked for.
+/// Options that most tests start from: a small bake, for which one thread is fastest.
 [[nodiscard]] BakeOptions small_options(std::uint32_t width, std::uint32_t height, std::uint32_t samples);
 
 }  // namespace pdsm::test

@@ -25,7 +25,8 @@ enum class Walk {
 /// Where functions are exact (docs/maths.md, "Domain").
 enum class Receivers {
   all,      ///< from near to far, everywhere
-  volume    ///< from near to the last light-facing receiver surface on each ray
+  volume,   ///< from near to the last light-facing receiver surface on each ray
+  surfaces  ///< near the scene's own surfaces only: smaller, but nothing else can receive
 };
 
 /// How the light is sampled; any number of samples.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/receiver_rays.h"
+
+#include <cmath>
+
+namespace pdsm {
+namespace {
+
+/// Rays start this share of far behind far; traced depths are this near to the truth at the least.
+constexpr double kBehindFar = 1e-3;
+
+/// Rays run towards the light, so a light-facing surface is met from behind: its outward normal points
+/// along the ray.
+void keep_light_facing(const RTCFilterFunctionNArguments* args) {
+  const auto* mesh = static_cast<const LightSpaceMesh*>(args->geometryUserPtr);
+  if (!mesh->closed) return;
+  const unsigned n = args->N;
+  for (unsigned lane = 0; lane < n; ++lane) {
+    if (args->valid[lane] != -1) continue;
+    const float along = RTCRayN_dir_x(args->ray, n, lane) * RTCHitN_Ng_x(args->hit, n, lane) +
+                        RTCRayN_dir_y(args->ray, n, lane) * RTCHitN_Ng_y(args->hit, n, lane) +
+                        RTCRayN_dir_z(args->ray, n, lane) * RTCHitN_Ng_z(args->hit, n, lane);
+    if (along <= 0) args->valid[lane] = 0;
+  }
+}
+
+}  // namespace
+
+ReceiverContext::ReceiverContext() {
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.filter = keep_light_facing;
+}
+
+double receiver_ray_start(const MapGrid& grid) { return grid.far_depth * (1 + kBehindFar); }
+
+PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, double u, double v) {
+  // n . z (u, v, 1) = c, so z = c / (n . d), and dz/du = -z n_x / (n . d).
+  const glm::uvec3 t = mesh.triangles[triangle];
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double facing = glm::dot(normal, glm::dvec3(u, v, 1)), depth = glm::dot(normal, a) / facing;
+  return {depth, -depth * normal.x / facing, -depth * normal.y / facing};
+}
+
+double surface_depth(const MapGrid& grid, const PlaneOnRay& plane, double traced_depth) {
+  const bool agree = std::abs(plane.depth - traced_depth) <= kBehindFar * grid.far_depth;
+  return agree ? plane.depth : traced_depth;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "trace/embree_scene.h"
+#include "walk/map_grid.h"
+
+/// Rays that run along PDSM rays towards the light and meet light-facing receiver surfaces.
+namespace pdsm {
+
+/// A context whose filter rejects surfaces of closed meshes that face away from the light.
+struct ReceiverContext {
+  ReceiverContext();
+  RTCIntersectContext context;
+};
+
+/// Depth from which such rays start: a little behind far, so that a surface at far is met.
+[[nodiscard]] double receiver_ray_start(const MapGrid& grid);
+
+/// The plane of a triangle on the PDSM ray of slope (u, v).
+struct PlaneOnRay {
+  double depth = 0;             ///< metres
+  double slope_u = 0, slope_v = 0;  ///< change of depth per change of slope, metres
+};
+[[nodiscard]] PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, double u, double v);
+
+/// The plane's depth, unless the triangle is so grazing that only the traced one makes sense.
+[[nodiscard]] double surface_depth(const MapGrid& grid, const PlaneOnRay& plane, double traced_depth);
+
+}  // namespace pdsm
