@@ -85,14 +85,14 @@ EdgeTable make_edge_table(const Mesh& mesh) {
   return table;
 }
 
-/// Whether the edges filed under one corner are pairs of opposite direction, each pair once. Sorts them.
+/// Whether the edges filed under one corner are pairs of opposite direction, each pair once. Sorts them:
+/// of two equal pairs the downward edges then come first, and do not pair.
 bool is_paired(std::vector<std::uint64_t>::iterator begin, std::vector<std::uint64_t>::iterator end) {
   if ((end - begin) % 2 != 0) return false;
   std::sort(begin, end);
   for (auto edge = begin; edge != end; edge += 2) {
     const std::uint64_t downwards = edge[0], upwards = edge[1];
     if (downwards % 2 != 0 || upwards != downwards + 1) return false;
-    if (edge != begin && edge[-1] == upwards) return false;
   }
   return true;
 }

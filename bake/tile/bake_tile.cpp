@@ -93,17 +93,20 @@ void prepare_block(const TileInput& input, TileBlock& block) {
   if (input.receivers == Receivers::surfaces) block.bands = find_code_bands(input, block.rect);
 }
 
-/// Leaves out the packets of rays that nothing can darken.
+/// Switches off the rays that nothing can darken, and leaves out packets that hold no others. What only
+/// such rays would look at is not traced, so they must not be walked.
 void make_packets(const TileInput& input, const ShadowCells& cells, TileBlock& block) {
   block.packets = make_ray_packets(input.grid, block.rect, block.domain_ends);
   const auto width = static_cast<std::uint32_t>(block.rect.x1 - block.rect.x0);
-  std::erase_if(block.packets, [&](const RayPacket& packet) {
-    for (std::uint32_t lane = 0; lane < RayPacket::kLanes && packet.domain_end[lane] >= 0; ++lane) {
+  for (RayPacket& packet : block.packets) {
+    for (std::uint32_t lane = 0; lane < RayPacket::kLanes; ++lane) {
       const auto x = block.rect.x0 - cells.tile.x0 + static_cast<std::int32_t>(packet.texel[lane] % width);
       const auto y = block.rect.y0 - cells.tile.y0 + static_cast<std::int32_t>(packet.texel[lane] / width);
-      if (cells.may_darken(x / kCellSize, y / kCellSize)) return false;
+      if (!cells.may_darken(x / kCellSize, y / kCellSize)) packet.domain_end[lane] = RayPacket::kUnused;
     }
-    return true;
+  }
+  std::erase_if(block.packets, [](const RayPacket& packet) {
+    return std::all_of(packet.domain_end.begin(), packet.domain_end.end(), [](float end) { return end == RayPacket::kUnused; });
   });
 }
 

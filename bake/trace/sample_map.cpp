@@ -59,8 +59,9 @@ struct RayGenerator {
   }
 };
 
-/// On the plane n . P = c the depth along direction d changes with the focus-plane slope a by
-/// dt/da = -t n / (lambda n . d); see ray_path.h for lambda.
+/// On the plane n . P = c the depth along direction d is t = c / (n . d), and d changes with the focus-plane
+/// slope a by 1 / lambda (see ray_path.h). Within r texels of pitch p of a hit, n . d shrinks by at most
+/// R = (r_x p_x |n_x| + r_y p_y |n_y|) / lambda, so the plane is at most t R / (|n . d| - R) behind it.
 struct BiasRule {
   float constant, reach_x, reach_y, limit;
 
@@ -74,9 +75,10 @@ struct BiasRule {
   [[nodiscard]] float slope_bias(const RTCRayHit16& packet, int lane) const {
     const float nx = packet.hit.Ng_x[lane], ny = packet.hit.Ng_y[lane], nz = packet.hit.Ng_z[lane];
     const float facing = std::abs(nx * packet.ray.dir_x[lane] + ny * packet.ray.dir_y[lane] + nz);
-    const float across = packet.ray.tfar[lane] * (reach_x * std::abs(nx) + reach_y * std::abs(ny));
-    // Written so that a NaN (a grazing ray on a sliver) takes the limit.
-    return across < limit * facing ? across / facing : limit;
+    const float shrink = reach_x * std::abs(nx) + reach_y * std::abs(ny);
+    const float behind = packet.ray.tfar[lane] * shrink, left = facing - shrink;
+    // Written so that a plane that is seen edge-on within the reach, and a sliver's NaN, take the limit.
+    return behind < limit * left ? behind / left : limit;
   }
 };
 

@@ -18,7 +18,7 @@ RayPacket make_packet(const MapGrid& grid, const TexelRect& rect, std::span<cons
   packet.phase_y = j % coarse_y;
   packet.first_end = std::numeric_limits<float>::infinity();
   packet.last_end = 0;
-  packet.domain_end.fill(-1);
+  packet.domain_end.fill(RayPacket::kUnused);
   for (std::uint32_t lane = 0; lane < RayPacket::kLanes; ++lane) {
     const std::uint32_t i = i0 + lane * coarse_x;
     if (i >= static_cast<std::uint32_t>(rect.x1)) break;

@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
 
-EventKey key(float depth, bool unblocks) { return event_key(pack_event(0, depth, unblocks)); }
+EventKey key(float depth, bool unblocks) {
+  return event_key(pack_event(0, depth, unblocks));
+}
 
 /// Events of `samples` samples, each blocked and freed in turn at depths of few values: many events tie.
 std::vector<EventKey> random_keys(Random& random, std::uint32_t samples, int depths) {
@@ -58,7 +60,8 @@ TEST(PackedEvent, KeepsItsPartsAndOrdersByDepth) {
   Random random(71);
   for (int n = 0; n < 10000; ++n) {
     const std::uint32_t texel = random.count(0, 4095);
-    const auto a = static_cast<float>(std::exp2(random.uniform(-126, 126))), b = static_cast<float>(std::exp2(random.uniform(-126, 126)));
+    const auto a = static_cast<float>(std::exp2(random.uniform(-126, 126))),
+               b = static_cast<float>(std::exp2(random.uniform(-126, 126)));
     const PackedEvent event = pack_event(texel, a, n % 2 == 0);
     ASSERT_EQ(event_texel(event), texel);
     ASSERT_EQ(key_depth(event_key(event)), a);
@@ -71,7 +74,8 @@ TEST(Accumulate, SumsInIntegers) {
   Random random(72);
   StepFunction function;
   for (int n = 0; n < 500; ++n) {
-    std::vector<EventKey> keys = random_keys(random, random.count(0, 60), static_cast<int>(random.integer(1, 30)));
+    std::vector<EventKey> keys =
+        random_keys(random, random.count(0, 60), static_cast<int>(random.integer(1, 30)));
     const StepFunction expected = accumulate_plainly(keys);
     accumulate(keys, function);
     expect_equal(function, expected);
@@ -158,7 +162,8 @@ TEST(GatherEvents, CollectsEachTexelsEventsFromAllLogs) {
     ASSERT_EQ(gathered.first.front(), 0u);
     ASSERT_EQ(gathered.keys.size(), total);
     for (std::uint32_t t = 0; t < texels; ++t) {
-      const std::multiset<EventKey> actual(gathered.keys.begin() + gathered.first[t], gathered.keys.begin() + gathered.first[t + 1]);
+      const std::multiset<EventKey> actual(gathered.keys.begin() + gathered.first[t],
+                                           gathered.keys.begin() + gathered.first[t + 1]);
       ASSERT_EQ(actual, expected[t]) << "texel " << t;
     }
   }

@@ -2,8 +2,8 @@
 // What bake() and predict_bake() refuse, and how: one line "--option: reason" and the kind of failure.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -14,7 +14,8 @@
 namespace pdsm::test {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                 kInfinity = std::numeric_limits<double>::infinity();
 
 Scene plate_over_floor() {
   Scene scene;
@@ -73,26 +74,32 @@ TEST(BakeFaults, OptionsOutOfRangeAreUsageErrorsThatNameTheOption) {
   for (const BadOption& fault : bad) {
     BakeOptions options = small_options(8, 8, 4);
     fault.set(options);
-    expect_failure(Failure::usage, fault.option, [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
-    expect_failure(Failure::usage, fault.option, [&] { (void)predict_bake(plate_over_floor(), rect_light(1, 1), options); });
+    expect_failure(Failure::usage, fault.option,
+                   [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
+    expect_failure(Failure::usage, fault.option,
+                   [&] { (void)predict_bake(plate_over_floor(), rect_light(1, 1), options); });
   }
 }
 
 TEST(BakeFaults, LightSamplesMustBeFiniteAndBeforeNear) {
-  for (const std::array<double, 3>& position : {std::array<double, 3>{kNan, 0, 0}, {0, kInfinity, 0}, {0, 0, 4}, {0, 0, 100}}) {
+  for (const std::array<double, 3>& position :
+       {std::array<double, 3>{kNan, 0, 0}, {0, kInfinity, 0}, {0, 0, 4}, {0, 0, 100}}) {
     BakeOptions options = small_options(8, 8, 4);
     options.light_samples = {{position, {0, 0}, 1}};
-    expect_failure(Failure::usage, "light samples: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
+    expect_failure(Failure::usage,
+                   "light samples: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
   }
 }
 
 TEST(BakeFaults, ValuesAtTheEndsOfTheirRangesAreTaken) {
   for (const std::function<void(BakeOptions&)>& set : std::vector<std::function<void(BakeOptions&)>>{
            [](BakeOptions& o) { o.samples = 1; }, [](BakeOptions& o) { o.epsilon = 0; },
-           [](BakeOptions& o) { o.epsilon = std::nextafter(1.0, 0.0); }, [](BakeOptions& o) { o.depth_tolerance = 0; },
-           [](BakeOptions& o) { o.bias = 0; }, [](BakeOptions& o) { o.tile = 64; }, [](BakeOptions& o) { o.tile = 6400; },
-           [](BakeOptions& o) { o.threads = 0; }, [](BakeOptions& o) { o.isa = "sse2"; }, [](BakeOptions& o) { o.bias = 1e6; },
-           [](BakeOptions& o) { o.depth_tolerance = 1e6; }, [](BakeOptions& o) { o.map_width = 1; }}) {
+           [](BakeOptions& o) { o.epsilon = std::nextafter(1.0, 0.0); },
+           [](BakeOptions& o) { o.depth_tolerance = 0; }, [](BakeOptions& o) { o.bias = 0; },
+           [](BakeOptions& o) { o.tile = 64; }, [](BakeOptions& o) { o.tile = 6400; },
+           [](BakeOptions& o) { o.threads = 0; }, [](BakeOptions& o) { o.isa = "sse2"; },
+           [](BakeOptions& o) { o.bias = 1e6; }, [](BakeOptions& o) { o.depth_tolerance = 1e6; },
+           [](BakeOptions& o) { o.map_width = 1; }}) {
     BakeOptions options = small_options(8, 8, 4);
     set(options);
     EXPECT_NO_THROW((void)bake(plate_over_floor(), rect_light(1, 1), options));
@@ -105,7 +112,8 @@ TEST(BakeFaults, TooLittleMemoryIsAResourceError) {
       BakeOptions options = small_options(100, 100, 16);
       options.memory = memory;
       options.tile = tile;
-      expect_failure(Failure::resource, "--memory: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
+      expect_failure(Failure::resource,
+                     "--memory: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options); });
     }
   }
 }
@@ -119,7 +127,8 @@ TEST(BakeFaults, CancellingEndsTheBakeAtOnceOrLater) {
       int polled = 0;
       BakeCallbacks callbacks;
       callbacks.cancelled = [&] { return polled++ >= polls; };
-      expect_failure(Failure::interrupted, "bake: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options, callbacks); });
+      expect_failure(Failure::interrupted,
+                     "bake: ", [&] { (void)bake(plate_over_floor(), rect_light(1, 1), options, callbacks); });
       EXPECT_EQ(polled, polls + 1) << "nothing is asked again once it has said yes";
     }
   }
@@ -143,15 +152,17 @@ TEST(BakeFaults, NearBehindFarIsAnInputError) {
   Light light = rect_light(1, 1);
   light.name = "key";
   light.near_depth = 9;
-  expect_failure(Failure::input, "key.near: ", [&] { (void)bake(plate_over_floor(), light, small_options(8, 8, 4)); });
+  expect_failure(Failure::input,
+                 "key.near: ", [&] { (void)bake(plate_over_floor(), light, small_options(8, 8, 4)); });
 }
 
 TEST(BakePrediction, IsOfTheRightOrder) {
   const BakeOptions options = small_options(128, 128, 64);
   const BakePrediction prediction = predict_bake(plate_over_floor(), rect_light(1, 1), options);
   const BakeReport report = bake(plate_over_floor(), rect_light(1, 1), options).report;
-  EXPECT_GE(prediction.rays, report.rays) << "planned for all rays; those that nothing darkens are skipped";
-  // The trial's four of 64 samples see what the others do, but for where the penumbra lies.
+  // The trial's four of 64 samples see what the others do, but for where the penumbra and the margins lie.
+  EXPECT_GT(prediction.rays, report.rays / 2);
+  EXPECT_LT(prediction.rays, report.rays * 2);
   EXPECT_GT(prediction.events, report.events / 2);
   EXPECT_LT(prediction.events, report.events * 2);
   EXPECT_EQ(prediction.tile, report.tile);

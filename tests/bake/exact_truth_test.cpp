@@ -52,7 +52,8 @@ class ExactTruth : public testing::TestWithParam<Method> {
   static constexpr double kOccluder = 3;
   static constexpr std::uint32_t kSamples = 256;
 
-  [[nodiscard]] static BakeOptions options(std::uint32_t width, std::uint32_t height, std::uint32_t map_scale) {
+  [[nodiscard]] static BakeOptions options(std::uint32_t width, std::uint32_t height,
+                                           std::uint32_t map_scale) {
     BakeOptions o = small_options(width, height, kSamples);
     o.map_width = width * map_scale;
     o.map_height = height * map_scale;
@@ -63,8 +64,8 @@ class ExactTruth : public testing::TestWithParam<Method> {
   }
 
   /// Compares all depths of one texel with the truth; `displacement`: how far edges may appear moved.
-  static void expect_truth(const BakedFunctions& baked, std::uint32_t i, std::uint32_t j, const ShiftedTruth& truth,
-                           double displacement, double sampling, double occluder) {
+  static void expect_truth(const BakedFunctions& baked, std::uint32_t i, std::uint32_t j,
+                           const ShiftedTruth& truth, double displacement, double sampling, double occluder) {
     const double delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
     const double begin = occluder + baked.report().bias + 2 * delta;
     for (int n = 0; n <= 60; ++n) {
@@ -99,7 +100,8 @@ TEST_P(ExactTruth, RectangleLightAndHalfPlane) {
       const ShiftedTruth truth = [&](double z, double shift) {
         return rect_half_plane(2, back_project(edge - shift, kOccluder, d, z));
       };
-      expect_truth(baked, i, j, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples), kOccluder);
+      expect_truth(baked, i, j, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples),
+                   kOccluder);
     }
   }
 }
@@ -118,7 +120,8 @@ TEST_P(ExactTruth, EdgeOnTheRayHidesHalf) {
     return rect_half_plane(2, back_project(slope * kOccluder - shift, kOccluder, slope, z));
   };
   ASSERT_NEAR(truth(5, 0), 0.5, 1e-12);
-  expect_truth(baked, 20, 2, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples), kOccluder);
+  expect_truth(baked, 20, 2, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples),
+               kOccluder);
 }
 
 /// Square light of side 1.6, half plane whose edge normal has angle theta.
@@ -127,7 +130,8 @@ TEST_P(ExactTruth, SquareLightAndSlantedEdge) {
   set_view(light, 0.4, 0.4, 2, kFar);
   for (const double degrees : {10.0, 45.0, 110.0, 233.0}) {
     const double theta = degrees * std::numbers::pi / 180, offset = 0.2;
-    const glm::dvec3 normal(std::cos(theta), std::sin(theta), 0), along(-normal.y, normal.x, 0), up(0, 0, kOccluder);
+    const glm::dvec3 normal(std::cos(theta), std::sin(theta), 0), along(-normal.y, normal.x, 0),
+        up(0, 0, kOccluder);
     Scene scene;
     add(scene, quad_mesh(up + offset * normal - kWide * along, up + kWide * normal - kWide * along,
                          up + kWide * normal + kWide * along, up + offset * normal + kWide * along));
@@ -143,7 +147,8 @@ TEST_P(ExactTruth, SquareLightAndSlantedEdge) {
         const ShiftedTruth truth = [&](double z, double shift) {
           return square_half_plane(1.6, theta, back_project(offset - shift, kOccluder, d, z));
         };
-        expect_truth(baked, i, j, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples), kOccluder);
+        expect_truth(baked, i, j, truth, displacement, sampling_tolerance(edge_strata(kSamples), kSamples),
+                     kOccluder);
       }
     }
   }
@@ -165,7 +170,8 @@ TEST_P(ExactTruth, DiskLightAndHalfPlane) {
     const ShiftedTruth truth = [&](double z, double shift) {
       return disk_half_plane(0.9, back_project(edge - shift, kOccluder, d, z));
     };
-    expect_truth(baked, i, 2, truth, displacement, sampling_tolerance(2 * edge_strata(kSamples), kSamples), kOccluder);
+    expect_truth(baked, i, 2, truth, displacement, sampling_tolerance(2 * edge_strata(kSamples), kSamples),
+                 kOccluder);
   }
 }
 
@@ -208,9 +214,12 @@ TEST_P(ExactTruth, SphereOnTheAxis) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, ExactTruth,
-                         testing::Values(Method{Walk::exact, PointSet::lattice, 0.02}, Method{Walk::exact, PointSet::jittered, 0},
-                                         Method{Walk::midpoint, PointSet::lattice, 0}, Method{Walk::midpoint, PointSet::jittered, 0.02},
-                                         Method{Walk::exact, PointSet::lattice, 0}, Method{Walk::exact, PointSet::jittered, 0.01}),
+                         testing::Values(Method{Walk::exact, PointSet::lattice, 0.02},
+                                         Method{Walk::exact, PointSet::jittered, 0},
+                                         Method{Walk::midpoint, PointSet::lattice, 0},
+                                         Method{Walk::midpoint, PointSet::jittered, 0.02},
+                                         Method{Walk::exact, PointSet::lattice, 0},
+                                         Method{Walk::exact, PointSet::jittered, 0.01}),
                          method_name);
 
 }  // namespace

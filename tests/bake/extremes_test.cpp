@@ -80,7 +80,8 @@ TEST(Extremes, UmbraIsExactlyOne) {
       const BakedFunctions baked(scene, key_light(), options);
       const PenumbraLookUp look_up(baked.map());
       for (const double z : {4.2, 5.0, 7.999}) {
-        EXPECT_EQ(look_up.at({0.3, -0.2, z}, Filter::bilinear).attenuation, 1.0F) << samples << ", epsilon " << epsilon;
+        EXPECT_EQ(look_up.at({0.3, -0.2, z}, Filter::bilinear).attenuation, 1.0F)
+            << samples << ", epsilon " << epsilon;
         EXPECT_EQ(baked.value(0, 4, z), 1);
       }
     }
@@ -99,7 +100,10 @@ TEST(Extremes, ShadowAlreadyAtNear) {
     options.epsilon = epsilon;
     const BakedFunctions baked(scene, light, options);
     EXPECT_EQ(baked.value(2, 2, 3), 0);
-    EXPECT_EQ(baked.value(2, 2, 3 + baked.report().depth_tolerance + 2 * depth_step(baked.view(), baked.map().coding)), 1);
+    EXPECT_EQ(
+        baked.value(2, 2,
+                    3 + baked.report().depth_tolerance + 2 * depth_step(baked.view(), baked.map().coding)),
+        1);
     EXPECT_EQ(baked.value(2, 2, 7), 1);
   }
 }
@@ -134,7 +138,8 @@ TEST(Extremes, AFunctionRisesFallsAndRises) {
 }
 
 TEST(Extremes, MapsOfAnySize) {
-  for (const auto& [width, height] : {std::pair(1u, 1u), std::pair(1u, 90u), std::pair(90u, 1u), std::pair(7u, 13u), std::pair(64u, 65u)}) {
+  for (const auto& [width, height] :
+       {std::pair(1u, 1u), std::pair(1u, 90u), std::pair(90u, 1u), std::pair(7u, 13u), std::pair(64u, 65u)}) {
     BakeOptions options = small_options(width, height, 9);
     options.bias = 0.01;
     options.epsilon = 0;
@@ -209,18 +214,22 @@ TEST(Extremes, ALightFarLargerThanTheScene) {
   const BakedFunctions baked(plate_over_floor(), light, options);
   const double truth = rect_plate(12, 12, {-1.1, -0.9, 1.2, 1.3, 4}, 0, 0, 7.9);
   const double moved = 0.5 * baked.map_pitch_x() * 4;
-  const double high = rect_plate(12, 12, {-1.1 - moved, -0.9 - moved, 1.2 + moved, 1.3 + moved, 4}, 0, 0, 7.9);
-  EXPECT_NEAR(baked.value(1, 1, 7.9), truth, high - truth + sampling_tolerance(outline_strata(1024), 1024) + 0.02);
+  const double high =
+      rect_plate(12, 12, {-1.1 - moved, -0.9 - moved, 1.2 + moved, 1.3 + moved, 4}, 0, 0, 7.9);
+  EXPECT_NEAR(baked.value(1, 1, 7.9), truth,
+              high - truth + sampling_tolerance(outline_strata(1024), 1024) + 0.02);
 }
 
 TEST(Extremes, TrianglesThatAreNotFiniteAreDroppedAndCounted) {
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                  kInf = std::numeric_limits<float>::infinity();
   const BakedFunctions clean(plate_over_floor(), key_light(), small_options(32, 24, 16));
   Scene scene = plate_over_floor();
   Mesh dirty = *scene.geometry[0].mesh;
   const auto first = static_cast<std::uint32_t>(dirty.positions.size());
   dirty.positions.insert(dirty.positions.end(), {{kNan, 0, 3}, {0, kInf, 3}, {0, 0, -kInf}});
-  dirty.triangles.insert(dirty.triangles.begin(), {{0, 1, first}, {first + 1, 1, 2}, {first, first + 1, first + 2}, {0, 1, 99}});
+  dirty.triangles.insert(dirty.triangles.begin(),
+                         {{0, 1, first}, {first + 1, 1, 2}, {first, first + 1, first + 2}, {0, 1, 99}});
   scene.geometry[0].mesh = std::make_shared<const Mesh>(dirty);
   const BakedFunctions baked(scene, key_light(), small_options(32, 24, 16));
   expect_same_bytes(clean, baked);
@@ -260,7 +269,8 @@ TEST(Extremes, AnOccluderAtTheLightHidesWhatItCovers) {
   options.points = PointSet::jittered;
   const BakedFunctions baked(scene, light, options);
   // The edge at x = 0 is displaced by 0.01 pitch / 2 at most; one line of 16 strata could be cut.
-  EXPECT_NEAR(baked.value(1, 1, 5), 0.5, sampling_tolerance(edge_strata(256), 256) + 0.02 + 0.01 * baked.map_pitch_x());
+  EXPECT_NEAR(baked.value(1, 1, 5), 0.5,
+              sampling_tolerance(edge_strata(256), 256) + 0.02 + 0.01 * baked.map_pitch_x());
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct Window {
 };
 
 /// Whether the line through (x0, y0) and (x1, y1) passes all windows.
-bool line_passes(const std::vector<Window>& windows, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1) {
+bool line_passes(const std::vector<Window>& windows, std::int64_t x0, std::int64_t y0, std::int64_t x1,
+                 std::int64_t y1) {
   const std::int64_t run = x1 - x0;
   return std::all_of(windows.begin(), windows.end(), [&](const Window& w) {
     const std::int64_t y = y0 * run + (y1 - y0) * (w.x - x0);
@@ -81,8 +82,10 @@ class ShortTube {
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max(), greatest = 0;
     for (std::size_t k = 0; k <= function.depth.size(); ++k) {
       const double reach = rules_.tolerance_codes;
-      const bool from = k == 0 || static_cast<double>(function.depth[k - 1]) - reach <= static_cast<double>(c);
-      const bool to = k == function.depth.size() || static_cast<double>(function.depth[k]) + reach >= static_cast<double>(c + 1);
+      const bool from =
+          k == 0 || static_cast<double>(function.depth[k - 1]) - reach <= static_cast<double>(c);
+      const bool to = k == function.depth.size() ||
+                      static_cast<double>(function.depth[k]) + reach >= static_cast<double>(c + 1);
       if (!from || !to) continue;
       const std::uint32_t count = k == 0 ? 0 : function.count[k - 1];
       least = std::min(least, count);
@@ -91,7 +94,9 @@ class ShortTube {
     return {c, rules_.lower[least], rules_.upper[greatest]};
   }
 
-  [[nodiscard]] const Window& between(std::int64_t c) const { return between_[static_cast<std::size_t>(c - first_)]; }
+  [[nodiscard]] const Window& between(std::int64_t c) const {
+    return between_[static_cast<std::size_t>(c - first_)];
+  }
 
   [[nodiscard]] bool holds_zero_until(std::int64_t at) const {
     for (std::int64_t c = first_; c < at; ++c) {
@@ -101,7 +106,8 @@ class ShortTube {
   }
 
   [[nodiscard]] bool constant_serves(std::int64_t from, std::int64_t to, bool for_ever) const {
-    std::int64_t low = for_ever ? forever_.low : 0, high = for_ever ? forever_.high : std::numeric_limits<std::int64_t>::max();
+    std::int64_t low = for_ever ? forever_.low : 0,
+                 high = for_ever ? forever_.high : std::numeric_limits<std::int64_t>::max();
     for (std::int64_t c = from; c < to; ++c) {
       low = std::max(low, between(c).low);
       high = std::min(high, between(c).high);
@@ -156,7 +162,8 @@ StepFunction short_function(Random& random, std::uint32_t samples, double first,
   return function;
 }
 
-void expect_fewest(std::uint64_t seed, int cases, double first, double last, std::int64_t first_code, std::int64_t last_code) {
+void expect_fewest(std::uint64_t seed, int cases, double first, double last, std::int64_t first_code,
+                   std::int64_t last_code) {
   Random random(seed);
   FitWorkspace room;
   std::vector<FunctionVertex> vertices;
@@ -177,10 +184,14 @@ void expect_fewest(std::uint64_t seed, int cases, double first, double last, std
 }
 
 // Behind the last event + delta nothing changes: codes 0 .. 40 hold all that matters.
-TEST(FitPieces, AreFewestAtTheBeginningOfTheRange) { expect_fewest(21, 400, 0, 34, 0, 40); }
+TEST(FitPieces, AreFewestAtTheBeginningOfTheRange) {
+  expect_fewest(21, 400, 0, 34, 0, 40);
+}
 
 // Events up to the last code, whose delta reaches behind it.
-TEST(FitPieces, AreFewestAtTheEndOfTheRange) { expect_fewest(22, 400, 65505, 65535, 65495, 65535); }
+TEST(FitPieces, AreFewestAtTheEndOfTheRange) {
+  expect_fewest(22, 400, 65505, 65535, 65495, 65535);
+}
 
 TEST(StabbingLines, AcceptWindowsAsLongAsALinePasses) {
   Random random(23);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fit/fit_function.h"
 #include "support/step_functions.h"
@@ -71,12 +72,14 @@ TEST_P(FitPromise, HoldsForEveryShapeSampleCountAndTolerance) {
       for (const double share : kDeltaShares) {
         const double delta = share * (view.far_depth - view.near_depth);
         const FitRules rules = make_fit_rules(view, samples, epsilon, delta);
-        for (const Shape shape : kShapes) {
+        for (int n = 0; n < 4 * static_cast<int>(std::size(kShapes)); ++n) {
+          const Shape shape = kShapes[static_cast<std::size_t>(n) % std::size(kShapes)];
           const std::uint32_t steps = random.pick({1u, 3u, 12u, 60u});
           const StepFunction function = random_steps(random, shape, view, samples, delta, steps);
           if (function.depth.empty()) continue;
-          SCOPED_TRACE(testing::Message() << "N " << samples << ", near " << view.near_depth << ", far " << view.far_depth
-                                          << ", delta " << delta << ", shape " << static_cast<int>(shape));
+          SCOPED_TRACE(testing::Message()
+                       << "N " << samples << ", near " << view.near_depth << ", far " << view.far_depth
+                       << ", delta " << delta << ", shape " << static_cast<int>(shape));
           const std::vector<FunctionVertex> vertices = fit(function, rules);
           expect_valid(rules.coding, vertices);
           expect_within_tube(view, function, rules, vertices);

@@ -54,7 +54,8 @@ TEST(FitRules, DepthsTakeSixteenBitsWhileDeltaHoldsTwoSteps) {
 }
 
 TEST(FitRules, DeltaIsKeptUnlessNoCodeFitsIn) {
-  for (const double delta : {0.0019, 0.0021, 1.0}) EXPECT_DOUBLE_EQ(rules_for(256, 0.02, delta).tolerance, delta);
+  for (const double delta : {0.0019, 0.0021, 1.0})
+    EXPECT_DOUBLE_EQ(rules_for(256, 0.02, delta).tolerance, delta);
   const FitRules least = rules_for(256, 0.02, 0);
   const double step = depth_step(depth_view(1, 1 + 65535 * 0.001), least.coding);
   EXPECT_DOUBLE_EQ(least.tolerance, step / 2);
@@ -71,7 +72,8 @@ TEST(FitRules, BoundsLieWithinEpsilonLessAHalfCode) {
       ASSERT_EQ(rules.lower.size(), samples + 1u);
       for (std::uint32_t count = 0; count <= samples; ++count) {
         const double v = static_cast<double>(count) / samples;
-        const double low = static_cast<double>(rules.lower[count]) * unit, high = static_cast<double>(rules.upper[count]) * unit;
+        const double low = static_cast<double>(rules.lower[count]) * unit,
+                     high = static_cast<double>(rules.upper[count]) * unit;
         ASSERT_LE(low, high);
         ASSERT_GE(low, 0);
         ASSERT_LE(high, 1);

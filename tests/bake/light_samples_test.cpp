@@ -21,7 +21,8 @@ struct Line {
 std::vector<Line> random_lines(std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<Line> lines;
-  for (int n = 0; n < count; ++n) lines.push_back({random.uniform(0, 2 * std::numbers::pi), random.uniform(-0.7, 0.7)});
+  for (int n = 0; n < count; ++n)
+    lines.push_back({random.uniform(0, 2 * std::numbers::pi), random.uniform(-0.7, 0.7)});
   return lines;
 }
 
@@ -78,7 +79,8 @@ TEST(JitteredSamples, ErrAtMostByTheStrataCrossed) {
 
 TEST(JitteredSamples, ErrWithinTheProbableBound) {
   for (const std::uint32_t count : {64u, 256u, 1024u, 4096u}) {
-    const LineErrors errors = square_errors(make_light_samples(rect_light(1, 1), count, PointSet::jittered, 1), random_lines(81, 4000));
+    const LineErrors errors = square_errors(
+        make_light_samples(rect_light(1, 1), count, PointSet::jittered, 1), random_lines(81, 4000));
     EXPECT_LE(errors.worst, sampling_tolerance(edge_strata(count), count)) << count;
   }
 }
@@ -101,7 +103,8 @@ TEST(JitteredSamples, FillEachStratumOnce) {
     std::set<std::pair<int, int>> strata;
     for (const LightSample& s : make_light_samples(rect_light(1, 1), n * n, PointSet::jittered, 2)) {
       if (n == 1) continue;
-      strata.emplace(static_cast<int>((s.position[0] + 0.5) * n), static_cast<int>((s.position[1] + 0.5) * n));
+      strata.emplace(static_cast<int>((s.position[0] + 0.5) * n),
+                     static_cast<int>((s.position[1] + 0.5) * n));
     }
     EXPECT_EQ(strata.size(), n == 1 ? 0u : n * n) << n;
   }
@@ -114,12 +117,18 @@ TEST(LatticeSamples, AreNoWorseThanJitteredOnes) {
     double jittered_square = 0, jittered_disk = 0;
     constexpr int kSeeds = 5;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      jittered_square += square_errors(make_light_samples(rect_light(1, 1), count, PointSet::jittered, seed), lines).mean / kSeeds;
-      jittered_disk += disk_errors(make_light_samples(disk_light(0.5), count, PointSet::jittered, seed), lines).mean / kSeeds;
+      jittered_square +=
+          square_errors(make_light_samples(rect_light(1, 1), count, PointSet::jittered, seed), lines).mean /
+          kSeeds;
+      jittered_disk +=
+          disk_errors(make_light_samples(disk_light(0.5), count, PointSet::jittered, seed), lines).mean /
+          kSeeds;
     }
     for (const std::uint64_t seed : {0u, 1u, 2u}) {
-      const LineErrors square = square_errors(make_light_samples(rect_light(1, 1), count, PointSet::lattice, seed), lines);
-      const LineErrors disk = disk_errors(make_light_samples(disk_light(0.5), count, PointSet::lattice, seed), lines);
+      const LineErrors square =
+          square_errors(make_light_samples(rect_light(1, 1), count, PointSet::lattice, seed), lines);
+      const LineErrors disk =
+          disk_errors(make_light_samples(disk_light(0.5), count, PointSet::lattice, seed), lines);
       EXPECT_LE(square.mean, jittered_square) << count << ", seed " << seed;
       EXPECT_LE(disk.mean, jittered_disk) << count << ", seed " << seed;
       EXPECT_LE(square.worst, sampling_tolerance(edge_strata(count), count)) << count << ", seed " << seed;
@@ -179,13 +188,15 @@ TEST_P(AnyCount, SeedsAreReproducibleAndDiffer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EverySet, AnyCount,
-                         testing::Values(Set{false, PointSet::lattice, 0}, Set{false, PointSet::lattice, 9}, Set{false, PointSet::jittered, 0},
-                                         Set{true, PointSet::lattice, 0}, Set{true, PointSet::lattice, 9}, Set{true, PointSet::jittered, 4}));
+                         testing::Values(Set{false, PointSet::lattice, 0}, Set{false, PointSet::lattice, 9},
+                                         Set{false, PointSet::jittered, 0}, Set{true, PointSet::lattice, 0},
+                                         Set{true, PointSet::lattice, 9}, Set{true, PointSet::jittered, 4}));
 
 /// The first sample of seed 0 has no jitter: a bake with N = 1 is the plain shadow map.
 TEST(MapJitter, OfTheFirstSampleIsNone) {
   for (const std::uint32_t count : {1u, 100u}) {
-    EXPECT_EQ(make_light_samples(rect_light(1, 1), count, PointSet::lattice, 0)[0].jitter, (std::array<float, 2>{0, 0}));
+    EXPECT_EQ(make_light_samples(rect_light(1, 1), count, PointSet::lattice, 0)[0].jitter,
+              (std::array<float, 2>{0, 0}));
   }
 }
 

@@ -18,7 +18,9 @@ constexpr double kLightHeight = 6;
 constexpr Plate kPlate{-0.4, -0.5, 0.8, 0.3, 3.5};
 
 /// Light space to world: the light looks down from 6, its x is the world's and its y the world's z.
-std::array<double, 3> to_world(double x, double y, double z) { return {x, kLightHeight - z, y}; }
+std::array<double, 3> to_world(double x, double y, double z) {
+  return {x, kLightHeight - z, y};
+}
 
 Mesh world_plate(const Plate& p) {
   const auto at = [&](double x, double y) {
@@ -79,7 +81,8 @@ TEST(PlateBar, MeanErrorIsBelowHalfAPercent) {
   RecordProperty("mean_floor", std::to_string(floor.mean()));
   RecordProperty("mean_free", std::to_string(free.mean()));
   EXPECT_LE(errors.mean(), 0.005) << "floor " << floor.mean() << ", free " << free.mean();
-  EXPECT_LE(errors.percentile(0.99), 0.02) << "floor " << floor.percentile(0.99) << ", free " << free.percentile(0.99);
+  EXPECT_LE(errors.percentile(0.99), 0.02)
+      << "floor " << floor.percentile(0.99) << ", free " << free.percentile(0.99);
   EXPECT_LE(floor.mean(), 0.005);
   EXPECT_LE(free.mean(), 0.005);
 }

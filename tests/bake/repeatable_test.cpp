@@ -16,7 +16,8 @@ Scene mixed_scene() {
   Random random(51);
   for (int n = 0; n < 6; ++n) {
     const double x = random.uniform(-2, 2), y = random.uniform(-2, 2);
-    add(scene, Plate{x, y, x + random.uniform(0.2, 1.5), y + random.uniform(0.2, 1.5), random.uniform(2.5, 6)});
+    add(scene,
+        Plate{x, y, x + random.uniform(0.2, 1.5), y + random.uniform(0.2, 1.5), random.uniform(2.5, 6)});
   }
   add(scene, sphere_mesh({0.3, -0.4, 4}, 0.7, 4));
   add(scene, Plate{-9, -9, 9, 9, 8});
@@ -142,8 +143,9 @@ TEST(RepeatableTilted, ForAnyThreadsTileAndOrder) {
   expect_same_bytes(first, {mixed_scene(), key_light(), options});
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryGrid, Repeatable, testing::ValuesIn(kGrids),
-                         [](const auto& grid) { return "Maps" + std::to_string(grid.param.map_width) + "x" + std::to_string(grid.param.map_height); });
+INSTANTIATE_TEST_SUITE_P(EveryGrid, Repeatable, testing::ValuesIn(kGrids), [](const auto& grid) {
+  return "Maps" + std::to_string(grid.param.map_width) + "x" + std::to_string(grid.param.map_height);
+});
 
 }  // namespace
 }  // namespace pdsm::test

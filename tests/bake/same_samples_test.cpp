@@ -19,7 +19,8 @@ std::vector<Plate> random_plates(Random& random) {
     const double z = random.uniform(2, 7), x = random.uniform(-2, 2), y = random.uniform(-2, 2);
     // Plates as thin as 0.1: wires, too. In float already, as the mesh will have them.
     const auto rounded = [](double v) { return static_cast<double>(static_cast<float>(v)); };
-    plates.push_back({rounded(x), rounded(y), rounded(x + random.uniform(0.1, 2)), rounded(y + random.uniform(0.1, 2)), rounded(z)});
+    plates.push_back({rounded(x), rounded(y), rounded(x + random.uniform(0.1, 2)),
+                      rounded(y + random.uniform(0.1, 2)), rounded(z)});
   }
   return plates;
 }
@@ -33,8 +34,12 @@ Scene scene_of(const std::vector<Plate>& plates) {
 
 MapModel model_of(const BakedFunctions& baked, Walk walk) {
   const View& view = baked.view();
-  return {2 / (1 / view.near_depth + 1 / view.far_depth), baked.map_pitch_x(), baked.map_pitch_y(), texel_reach(walk),
-          baked.report().bias, baked.report().depth_tolerance};
+  return {2 / (1 / view.near_depth + 1 / view.far_depth),
+          baked.map_pitch_x(),
+          baked.map_pitch_y(),
+          texel_reach(walk),
+          baked.report().bias,
+          baked.report().depth_tolerance};
 }
 
 /// Compares every texel at many depths; returns the mean width of the bounds.
@@ -47,7 +52,8 @@ double expect_oracle(const BakedFunctions& baked, const std::vector<Plate>& plat
     for (std::uint32_t i = 0; i < baked.view().width; ++i) {
       for (int n = 0; n < 40; ++n) {
         const double z = kNear + (kFar - kNear) * (n + 0.37) / 40;
-        const BlockedCount blocked = count_blocked(samples, plates, model, {z * baked.slope_x(i), z * baked.slope_y(j), z});
+        const BlockedCount blocked =
+            count_blocked(samples, plates, model, {z * baked.slope_x(i), z * baked.slope_y(j), z});
         const double count = baked.value(i, j, z) * total;
         EXPECT_GE(count, blocked.certain - 1e-6) << "texel " << i << ", " << j << ", z " << z;
         EXPECT_LE(count, blocked.possible + 1e-6) << "texel " << i << ", " << j << ", z " << z;
@@ -121,7 +127,8 @@ TEST_P(SameSamples, TiltedSamples) {
     for (int k = 0; k < 40; ++k) {
       LightSample sample;
       sample.position = {random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7), random.uniform(-1, 1)};
-      sample.jitter = {static_cast<float>(random.uniform(-0.5, 0.499)), static_cast<float>(random.uniform(-0.5, 0.499))};
+      sample.jitter = {static_cast<float>(random.uniform(-0.5, 0.499)),
+                       static_cast<float>(random.uniform(-0.5, 0.499))};
       options.light_samples.push_back(sample);
     }
     expect_oracle({scene_of(plates), light, options}, plates, GetParam());
@@ -147,9 +154,11 @@ TEST_P(SameSamples, LiftedSamplesAgreeWithPlanarOnes) {
       for (std::uint32_t i = 0; i < a.view().width; ++i) {
         for (int step = 0; step < 20; ++step) {
           const double z = kNear + (kFar - kNear) * (step + 0.37) / 20;
-          const BlockedCount blocked = count_blocked(a.map().samples, plates, model, {z * a.slope_x(i), z * a.slope_y(j), z});
+          const BlockedCount blocked =
+              count_blocked(a.map().samples, plates, model, {z * a.slope_x(i), z * a.slope_y(j), z});
           const double difference = 64 * std::abs(a.value(i, j, z) - b.value(i, j, z));
-          ASSERT_LE(difference, blocked.possible - blocked.certain + 1e-6) << "texel " << i << ", " << j << ", z " << z;
+          ASSERT_LE(difference, blocked.possible - blocked.certain + 1e-6)
+              << "texel " << i << ", " << j << ", z " << z;
         }
       }
     }

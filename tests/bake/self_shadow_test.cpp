@@ -30,14 +30,19 @@ struct Slope {
     return (kSide * sine + kCenter * cosine) / (u * sine + cosine);
   }
   /// Slope of the ray to the surface's point at distance a from its centre.
-  [[nodiscard]] double ray_to(double a) const { return (kSide + a * std::cos(angle())) / (kCenter - a * std::sin(angle())); }
+  [[nodiscard]] double ray_to(double a) const {
+    return (kSide + a * std::cos(angle())) / (kCenter - a * std::sin(angle()));
+  }
 
   [[nodiscard]] Scene scene() const {
     Scene s;
     // 6 x 6, thin for an open mesh, 0.4 thick behind the lit side for a closed one.
-    if (closed) add(s, box_mesh({-3, -3, 0}, {3, 3, 0.4}));
-    else add(s, Plate{-3, -3, 3, 3, 0});
-    s.geometry[0].local_to_world = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(kSide, 0, kCenter)), angle(), glm::dvec3(0, 1, 0));
+    if (closed)
+      add(s, box_mesh({-3, -3, 0}, {3, 3, 0.4}));
+    else
+      add(s, Plate{-3, -3, 3, 3, 0});
+    s.geometry[0].local_to_world = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(kSide, 0, kCenter)),
+                                               angle(), glm::dvec3(0, 1, 0));
     return s;
   }
 };
@@ -57,7 +62,8 @@ TEST_P(LitPlane, HoldsNoShadow) {
   light.window = {slope.ray_to(-2.4), -0.25, slope.ray_to(2.4), 0.25};
   light.near_depth = 2;
   light.far_depth = 10;
-  for (const std::optional<double> bias : {std::optional<double>(), std::optional<double>(1e-9), std::optional<double>(0.5)}) {
+  for (const std::optional<double> bias :
+       {std::optional<double>(), std::optional<double>(1e-9), std::optional<double>(0.5)}) {
     for (const double ratio : {1.0, 3.0, 0.5, 0.25}) {
       for (const Receivers receivers : {Receivers::volume, Receivers::all}) {
         BakeOptions options = small_options(24, 16, 25);
@@ -70,14 +76,16 @@ TEST_P(LitPlane, HoldsNoShadow) {
         int on_surface = 0;
         for (std::uint32_t j = 0; j < 16; ++j) {
           for (std::uint32_t i = 0; i < 24; ++i) {
-            const double z = slope.depth(baked.slope_x(i)), x = z * baked.slope_x(i), y = z * baked.slope_y(j);
+            const double z = slope.depth(baked.slope_x(i)), x = z * baked.slope_x(i),
+                         y = z * baked.slope_y(j);
             // Where the ray meets the surface itself, not the plane around it.
             if (z <= 2 || z >= 10 || std::hypot(x - kSide, z - kCenter) > 2.8 || std::abs(y) > 2.8) continue;
             ++on_surface;
-            ASSERT_EQ(baked.value(i, j, z), 0) << "texel " << i << ", " << j << ", ratio " << ratio << ", bias "
-                                               << baked.report().bias;
+            ASSERT_EQ(baked.value(i, j, z), 0)
+                << "texel " << i << ", " << j << ", ratio " << ratio << ", bias " << baked.report().bias;
             // By default the function ends there, and holds what it had: no shadow at any depth.
-            ASSERT_TRUE(receivers == Receivers::all || baked.function(i, j).empty()) << "texel " << i << ", " << j;
+            ASSERT_TRUE(receivers == Receivers::all || baked.function(i, j).empty())
+                << "texel " << i << ", " << j;
           }
         }
         EXPECT_GT(on_surface, 100) << "the window must hold the surface";

@@ -2,6 +2,8 @@
 // Lossless bakes of scenes that are mirrored, scaled, moved, turned or added to.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
 
@@ -51,7 +53,8 @@ void expect_same_functions(const BakedFunctions& a, const BakedFunctions& b, dou
   for (std::uint32_t j = 0; j < a.view().height; ++j) {
     for (std::uint32_t i = 0; i < a.view().width; ++i) {
       const auto [bi, bj] = partner(i, j);
-      for (const double z : depths_between(a.view(), a.map().coding, a.function(i, j), b.function(bi, bj), width)) {
+      for (const double z :
+           depths_between(a.view(), a.map().coding, a.function(i, j), b.function(bi, bj), width)) {
         ASSERT_EQ(a.value(i, j, z), b.value(bi, bj, z)) << "texel " << i << ", " << j << ", z " << z;
         ++compared;
       }
@@ -70,8 +73,10 @@ TEST_P(Symmetry, MirroredSceneGivesMirroredFunctions) {
       const std::vector<Plate> plates = random_plates(61);
       std::vector<Plate> mirrored = plates;
       for (Plate& p : mirrored) {
-        if (along_x) std::tie(p.x0, p.x1) = std::pair(-p.x1, -p.x0);
-        else std::tie(p.y0, p.y1) = std::pair(-p.y1, -p.y0);
+        if (along_x)
+          std::tie(p.x0, p.x1) = std::pair(-p.x1, -p.x0);
+        else
+          std::tie(p.y0, p.y1) = std::pair(-p.y1, -p.y0);
       }
       BakeOptions options = lossless(33, 21);
       options.map_width = map_width;
@@ -84,7 +89,8 @@ TEST_P(Symmetry, MirroredSceneGivesMirroredFunctions) {
         sample.position[axis] *= -1;
         sample.jitter[axis] *= -1;
       }
-      const BakedFunctions a(scene_of(plates), key_light(), options), b(scene_of(mirrored), key_light(), other);
+      const BakedFunctions a(scene_of(plates), key_light(), options),
+          b(scene_of(mirrored), key_light(), other);
       expect_same_functions(a, b, event_width(a, b), [&](std::uint32_t i, std::uint32_t j) {
         return along_x ? std::pair(32 - i, j) : std::pair(i, 20 - j);
       });
@@ -126,7 +132,8 @@ TEST_P(Symmetry, MovedAndTurnedSceneGivesTheSameFunctions) {
     light.direction = glm::dvec3(motion[2]);
     light.up = glm::dvec3(motion[1]);
     const BakedFunctions baked(moved, light, options);
-    expect_same_functions(first, baked, event_width(first, baked) + depth_step(first.view(), first.map().coding),
+    expect_same_functions(first, baked,
+                          event_width(first, baked) + depth_step(first.view(), first.map().coding),
                           [](std::uint32_t i, std::uint32_t j) { return std::pair(i, j); });
   }
 }
@@ -150,9 +157,10 @@ TEST_P(Symmetry, AnAddedTriangleNeverLowersAttenuation) {
     const BakedFunctions before(scene_of(plates), key_light(), options), after(more, key_light(), options);
     for (std::uint32_t j = 0; j < 24; ++j) {
       for (std::uint32_t i = 0; i < 32; ++i) {
-        for (const double at : depths_between(before.view(), before.map().coding, before.function(i, j), after.function(i, j),
-                                              event_width(before, after))) {
-          ASSERT_GE(after.value(i, j, at), before.value(i, j, at)) << "case " << n << ", texel " << i << ", " << j << ", z " << at;
+        for (const double at : depths_between(before.view(), before.map().coding, before.function(i, j),
+                                              after.function(i, j), event_width(before, after))) {
+          ASSERT_GE(after.value(i, j, at), before.value(i, j, at))
+              << "case " << n << ", texel " << i << ", " << j << ", z " << at;
           darker = darker || after.value(i, j, at) > before.value(i, j, at);
         }
       }
@@ -178,19 +186,52 @@ TEST_P(Symmetry, VolumeHoldsTheValueAtTheDomainsEnd) {
       ASSERT_EQ(all.domain_end(i, j), kFar);
       bool event_at_end = false;
       for (const FunctionVertex& v : function) {
-        event_at_end = event_at_end || std::abs(decode_depth(all.view(), all.map().coding, v.depth) - end) < width;
+        event_at_end =
+            event_at_end || std::abs(decode_depth(all.view(), all.map().coding, v.depth) - end) < width;
       }
-      for (const double z : depths_between(all.view(), all.map().coding, function, volume.function(i, j), width)) {
+      for (const double z :
+           depths_between(all.view(), all.map().coding, function, volume.function(i, j), width)) {
         if (z >= end - width) break;
         ASSERT_EQ(volume.value(i, j, z), all.value(i, j, z)) << "texel " << i << ", " << j;
       }
       if (event_at_end) continue;
       const double last = all.value(i, j, end);
-      for (const double z : {end + width, kFar, 10 * kFar}) ASSERT_EQ(volume.value(i, j, z), last) << "texel " << i << ", " << j;
+      for (const double z : {end + width, kFar, 10 * kFar})
+        ASSERT_EQ(volume.value(i, j, z), last) << "texel " << i << ", " << j;
       ++held;
     }
   }
   EXPECT_GT(held, 600u);
+}
+
+/// `surfaces` is `volume` at the depths of the scene's own surfaces, for fewer pieces.
+TEST_P(Symmetry, SurfacesKeepTheValuesOnSurfaces) {
+  BakeOptions options = lossless(40, 30);
+  options.walk = GetParam();
+  const std::vector<Plate> plates = random_plates(68);
+  const BakedFunctions volume(scene_of(plates), key_light(), options);
+  options.receivers = Receivers::surfaces;
+  const BakedFunctions surfaces(scene_of(plates), key_light(), options);
+  EXPECT_LT(surfaces.vertex_count(), volume.vertex_count());
+  const double width = event_width(volume, surfaces) + depth_step(volume.view(), volume.map().coding);
+  std::size_t compared = 0;
+  for (std::uint32_t j = 0; j < 30; ++j) {
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      for (const Plate& plate : plates) {
+        const double x = plate.z * volume.slope_x(i), y = plate.z * volume.slope_y(j);
+        if (x < plate.x0 || x > plate.x1 || y < plate.y0 || y > plate.y1) continue;
+        const auto function = volume.function(i, j);
+        const bool near_event = std::any_of(function.begin(), function.end(), [&](const FunctionVertex& v) {
+          return std::abs(decode_depth(volume.view(), volume.map().coding, v.depth) - plate.z) < width;
+        });
+        if (near_event) continue;
+        ASSERT_EQ(surfaces.value(i, j, plate.z), volume.value(i, j, plate.z))
+            << "texel " << i << ", " << j << ", z " << plate.z;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000u);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothWalks, Symmetry, testing::Values(Walk::midpoint, Walk::exact),

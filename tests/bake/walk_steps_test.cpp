@@ -18,7 +18,8 @@ constexpr int kCases = 4000;
 RayPath random_path(Random& random, SamplePlane plane) {
   const MapGrid grid = random_grid(random);
   const LightSample sample = random_sample(random, grid, plane);
-  return make_ray_path(grid, sample, random.count(0, grid.texels[0] - 1), random.count(0, grid.texels[1] - 1));
+  return make_ray_path(grid, sample, random.count(0, grid.texels[0] - 1),
+                       random.count(0, grid.texels[1] - 1));
 }
 
 /// Rounding of a step's depths: one float step (2^-24 relative) where z = origin_z + 1/w is rounded, and
@@ -156,16 +157,19 @@ TEST(ExactWalk, VisitsExactlyTheTexelsThatThePathCrosses) {
     const double rounding = depth_rounding(path);
     std::array<std::int32_t, 4> box{0, 0, 0, 0};
     for (std::size_t a = 0; a < 2; ++a) {
-      const double g0 = path.fraction[a] + path.slope[a] * path.w_begin, g1 = path.fraction[a] + path.slope[a] * path.w_end;
+      const double g0 = path.fraction[a] + path.slope[a] * path.w_begin,
+                   g1 = path.fraction[a] + path.slope[a] * path.w_end;
       box[a] = static_cast<std::int32_t>(std::floor(std::min(g0, g1))) - 1;
       box[a + 2] = static_cast<std::int32_t>(std::floor(std::max(g0, g1))) + 1;
     }
     for (std::int32_t y = box[1]; y <= box[3]; ++y) {
       for (std::int32_t x = box[0]; x <= box[2]; ++x) {
         const auto span = clip_to_texel(path, x, y);
-        const auto step = std::find_if(steps.begin(), steps.end(), [&](const WalkStep& s) { return s.dx == x && s.dy == y; });
+        const auto step = std::find_if(steps.begin(), steps.end(),
+                                       [&](const WalkStep& s) { return s.dx == x && s.dy == y; });
         if (step == steps.end()) {
-          ASSERT_TRUE(!span || (*span)[1] - (*span)[0] <= rounding) << "case " << n << " misses " << x << ", " << y;
+          ASSERT_TRUE(!span || (*span)[1] - (*span)[0] <= rounding)
+              << "case " << n << " misses " << x << ", " << y;
           continue;
         }
         ASSERT_TRUE(span) << "case " << n << " visits " << x << ", " << y;
@@ -174,7 +178,8 @@ TEST(ExactWalk, VisitsExactlyTheTexelsThatThePathCrosses) {
       }
     }
     for (const WalkStep& step : steps) {
-      ASSERT_TRUE(step.dx >= box[0] && step.dx <= box[2] && step.dy >= box[1] && step.dy <= box[3]) << "case " << n;
+      ASSERT_TRUE(step.dx >= box[0] && step.dx <= box[2] && step.dy >= box[1] && step.dy <= box[3])
+          << "case " << n;
     }
   }
 }
@@ -191,7 +196,8 @@ TEST(MidpointWalk, VisitsTheNearestCentreOfEachColumn) {
     const std::size_t major = x_major ? 0 : 1, minor = 1 - major;
     const double rounding = depth_rounding(path);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const std::int32_t column = x_major ? steps[s].dx : steps[s].dy, row = x_major ? steps[s].dy : steps[s].dx;
+      const std::int32_t column = x_major ? steps[s].dx : steps[s].dy,
+                         row = x_major ? steps[s].dy : steps[s].dx;
       if (s > 0) {
         const std::int32_t before = x_major ? steps[s - 1].dx : steps[s - 1].dy;
         ASSERT_EQ(column - before, path.slope[major] < 0 ? 1 : -1) << "case " << n;
@@ -217,18 +223,22 @@ TEST(RayPath, FollowsTheShiftLaw) {
   Random random(7);
   for (int n = 0; n < kCases; ++n) {
     const MapGrid grid = random_grid(random);
-    const LightSample sample = random_sample(random, grid, n % 2 == 0 ? SamplePlane::planar : SamplePlane::tilted);
-    const std::array<std::uint32_t, 2> index{random.count(0, grid.texels[0] - 1), random.count(0, grid.texels[1] - 1)};
+    const LightSample sample =
+        random_sample(random, grid, n % 2 == 0 ? SamplePlane::planar : SamplePlane::tilted);
+    const std::array<std::uint32_t, 2> index{random.count(0, grid.texels[0] - 1),
+                                             random.count(0, grid.texels[1] - 1)};
     const RayPath path = make_ray_path(grid, sample, index[0], index[1]);
     const double s_z = sample.position[2], focus = grid.focus_depth;
     for (const double z : {grid.near_depth, focus, grid.far_depth}) {
       for (std::size_t a = 0; a < 2; ++a) {
-        const double u = grid.origin[a] + (index[a] + 0.5) * grid.pitch[a] * grid.ratio[a].fine / grid.ratio[a].coarse;
+        const double u =
+            grid.origin[a] + (index[a] + 0.5) * grid.pitch[a] * grid.ratio[a].fine / grid.ratio[a].coarse;
         // Where the line from the sample to the point meets the focus plane.
         const double s = sample.position[a], point = z * u;
         const double on_focus = (s + (point - s) * (focus - s_z) / (z - s_z)) / focus;
         const double expected = (on_focus - grid.origin[a]) / grid.pitch[a] - sample.jitter[a];
-        const double actual = static_cast<double>(path.base[a]) + path.fraction[a] + path.slope[a] / (z - s_z);
+        const double actual =
+            static_cast<double>(path.base[a]) + path.fraction[a] + path.slope[a] / (z - s_z);
         // Two roundings to 2^-24 (each off by half); terms of up to 2^13 texels in double.
         ASSERT_NEAR(actual, expected, 0x1.0p-24 + 0x1.0p-36) << "case " << n << ", z " << z;
       }

@@ -14,7 +14,8 @@ std::uint64_t hash_of(const std::string& bytes) {
 
 TEST(ContentHash, IsOfTheSceneFileAndAllFilesInOrder) {
   const SceneFolder folder;
-  const std::string a = to_obj(box_mesh({1, 1, 1})), b = "mtllib b.mtl\n" + to_obj(box_mesh({2, 2, 2}));
+  const std::string a = "mtllib b.mtl\n" + to_obj(box_mesh({1, 1, 1})),
+                    b = "mtllib b.mtl\n" + to_obj(box_mesh({2, 2, 2}));
   const std::string mtl = "newmtl red\n";
   folder.write("a.obj", a);
   folder.write("b.obj", b);

@@ -137,6 +137,15 @@ TEST_F(GltfTest, StripsFansAndPlainTriangles) {
     }
     EXPECT_EQ(area, 1) << mode;
   }
+  // A fan of three triangles, in the shape of a house.
+  set_corners({0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 1.5, 0, 0, 1, 0}, 6);
+  const Geometry house = import().at(0);
+  double area = 0;
+  for (const glm::uvec3& t : house.mesh->triangles) {
+    const auto& p = house.mesh->positions;
+    area += glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]).z / 2;
+  }
+  EXPECT_EQ(area, 1.25);
   // Points and lines have no surface.
   for (const int mode : {0, 1, 2, 3}) {
     set_corners(plain, mode);

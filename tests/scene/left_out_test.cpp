@@ -89,7 +89,9 @@ TEST_F(LeftOutTest, SliverThatJoinsItsNeighboursLeavesTheMeshClosed) {
 TEST_F(LeftOutTest, FilesWithoutTrianglesAreValid) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_TRUE(read("points.obj", vertices).geometry.empty());
-  EXPECT_TRUE(read("lines.obj", vertices + "l 1 2\np 3\n").geometry.empty());
+  const Scene lines = read("lines.obj", vertices + "l 1 2\np 3\n");
+  EXPECT_TRUE(lines.geometry.empty());
+  EXPECT_TRUE(lines.warnings.empty());
   EXPECT_TRUE(read("none.ply", ply_of("0 0 0\n1 0 0\n1 1 0\n", 3, "", 0)).geometry.empty());
   EXPECT_TRUE(read("none.stl", "solid a\nendsolid a\n").geometry.empty());
   EXPECT_TRUE(read("none.gltf", R"({"asset": {"version": "2.0"}})").geometry.empty());

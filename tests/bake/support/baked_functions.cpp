@@ -10,7 +10,8 @@ BakedFunctions::Place BakedFunctions::place(std::uint32_t i, std::uint32_t j) co
   const FunctionImage& image = map_.images[0];
   const std::uint32_t bx = i / kBlockSize, by = j / kBlockSize;
   const std::uint32_t width = block_extent(image.width, image.height, bx, by)[0];
-  return {&image.blocks[std::size_t{by} * image.blocks_across() + bx], j % kBlockSize * width + i % kBlockSize};
+  return {&image.blocks[std::size_t{by} * image.blocks_across() + bx],
+          j % kBlockSize * width + i % kBlockSize};
 }
 
 std::vector<FunctionVertex> BakedFunctions::function(std::uint32_t i, std::uint32_t j) const {
@@ -24,7 +25,8 @@ double BakedFunctions::value(std::uint32_t i, std::uint32_t j, double z) const {
 
 double BakedFunctions::domain_end(std::uint32_t i, std::uint32_t j) const {
   const Place p = place(i, j);
-  return p.block->domain_end.empty() ? view().far_depth : decode_depth(view(), map_.coding, p.block->domain_end[p.texel]);
+  return p.block->domain_end.empty() ? view().far_depth
+                                     : decode_depth(view(), map_.coding, p.block->domain_end[p.texel]);
 }
 
 double BakedFunctions::slope_x(std::uint32_t i) const {
@@ -37,8 +39,12 @@ double BakedFunctions::slope_y(std::uint32_t j) const {
   return w[1] + (w[3] - w[1]) * (j + 0.5) / view().height;
 }
 
-double BakedFunctions::map_pitch_x() const { return (view().window[2] - view().window[0]) / report().map_width; }
-double BakedFunctions::map_pitch_y() const { return (view().window[3] - view().window[1]) / report().map_height; }
+double BakedFunctions::map_pitch_x() const {
+  return (view().window[2] - view().window[0]) / report().map_width;
+}
+double BakedFunctions::map_pitch_y() const {
+  return (view().window[3] - view().window[1]) / report().map_height;
+}
 
 std::uint64_t BakedFunctions::vertex_count() const {
   std::uint64_t total = 0;

@@ -44,7 +44,9 @@ class BakedFunctions {
 
 /// Farthest that the point of a ray may be from the centre of the map texel that stands for it, in texels
 /// along each axis: half a texel, and half a texel more across the midpoint line's major axis.
-[[nodiscard]] inline double texel_reach(Walk walk) { return walk == Walk::exact ? 0.5 : 1.0; }
+[[nodiscard]] inline double texel_reach(Walk walk) {
+  return walk == Walk::exact ? 0.5 : 1.0;
+}
 
 /// Options that most tests start from: a small bake, for which one thread is fastest.
 [[nodiscard]] BakeOptions small_options(std::uint32_t width, std::uint32_t height, std::uint32_t samples);

@@ -48,7 +48,8 @@ inline void expect_same_bytes(const BakedFunctions& a, const BakedFunctions& b) 
   for (std::uint32_t j = 0; j < baked.view().height; ++j) {
     for (std::uint32_t i = 0; i < baked.view().width; ++i) {
       for (const FunctionVertex& v : baked.function(i, j)) {
-        greatest = std::max(greatest, static_cast<double>(std::max(v.begin, v.end)) / baked.map().coding.value_max);
+        greatest =
+            std::max(greatest, static_cast<double>(std::max(v.begin, v.end)) / baked.map().coding.value_max);
       }
     }
   }

@@ -12,13 +12,18 @@ namespace pdsm::test {
 
 /// Signed distance from the light's centre at which an edge at depth h, `offset` from the axis, is seen
 /// from depth z on the ray of slope d (all along the edge's normal).
-[[nodiscard]] inline double back_project(double offset, double h, double d, double z) { return z * (offset - h * d) / (z - h); }
+[[nodiscard]] inline double back_project(double offset, double h, double d, double z) {
+  return z * (offset - h * d) / (z - h);
+}
 
 /// Light of length L along the edge's normal, half plane beyond `q`.
-[[nodiscard]] inline double rect_half_plane(double length, double q) { return std::clamp(0.5 - q / length, 0.0, 1.0); }
+[[nodiscard]] inline double rect_half_plane(double length, double q) {
+  return std::clamp(0.5 - q / length, 0.0, 1.0);
+}
 
 /// A plate before a rectangle light, seen from (x, y, z).
-[[nodiscard]] inline double rect_plate(double width, double height, const Plate& p, double x, double y, double z) {
+[[nodiscard]] inline double rect_plate(double width, double height, const Plate& p, double x, double y,
+                                       double z) {
   if (z <= p.z) return 0;
   const auto overlap = [&](double low, double high, double at, double length) {
     const double q0 = back_project(low, p.z, at / z, z), q1 = back_project(high, p.z, at / z, z);
@@ -32,8 +37,10 @@ namespace pdsm::test {
   const double c = std::abs(std::cos(theta)), s = std::abs(std::sin(theta));
   const double a = side * std::max(c, s), b = side * std::min(c, s), tau = std::abs(t);
   double tail = 0;
-  if (tau <= (a - b) / 2) tail = 0.5 - tau / a;
-  else if (tau < (a + b) / 2) tail = std::pow((a + b) / 2 - tau, 2) / (2 * a * b);
+  if (tau <= (a - b) / 2)
+    tail = 0.5 - tau / a;
+  else if (tau < (a + b) / 2)
+    tail = std::pow((a + b) / 2 - tau, 2) / (2 * a * b);
   return t >= 0 ? tail : 1 - tail;
 }
 
@@ -54,8 +61,12 @@ namespace pdsm::test {
   return std::sqrt(strata * std::log(2 / 1e-6) / 2) / samples;
 }
 /// Strata that one straight edge crosses.
-[[nodiscard]] inline double edge_strata(double samples) { return 2 * std::sqrt(samples) - 1; }
+[[nodiscard]] inline double edge_strata(double samples) {
+  return 2 * std::sqrt(samples) - 1;
+}
 /// Strata that the outline of a convex shape crosses.
-[[nodiscard]] inline double outline_strata(double samples) { return 4 * std::sqrt(samples) - 4; }
+[[nodiscard]] inline double outline_strata(double samples) {
+  return 4 * std::sqrt(samples) - 4;
+}
 
 }  // namespace pdsm::test

@@ -35,7 +35,8 @@ class Random {
   template <typename Container>
   void shuffle(Container& values) {
     for (std::size_t n = values.size(); n > 1; --n) {
-      std::swap(values[n - 1], values[static_cast<std::size_t>(integer(0, static_cast<std::int64_t>(n) - 1))]);
+      std::swap(values[n - 1],
+                values[static_cast<std::size_t>(integer(0, static_cast<std::int64_t>(n) - 1))]);
     }
   }
 

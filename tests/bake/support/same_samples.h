@@ -16,9 +16,9 @@ namespace pdsm::test {
 
 /// What the maps of a bake make of a scene.
 struct MapModel {
-  double focus_depth = 1;      ///< of the shared texel grid
+  double focus_depth = 1;  ///< of the shared texel grid
   double pitch_x = 0, pitch_y = 0;
-  double reach = 0.5;          ///< texels from a point to the centre of the texel that stands for it
+  double reach = 0.5;  ///< texels from a point to the centre of the texel that stands for it
   double bias = 0, delta = 0;
 };
 
@@ -41,8 +41,9 @@ struct Cover {
 ///   reach pitch F (h - s_z) / (F - s_z)
 /// of the point's own line along each axis. Only samples whose footprint holds an edge are in doubt, and
 /// those of plates within bias + delta before z, or delta behind it.
-[[nodiscard]] inline BlockedCount count_blocked(std::span<const LightSample> samples, std::span<const Plate> plates,
-                                                const MapModel& model, const std::array<double, 3>& point) {
+[[nodiscard]] inline BlockedCount count_blocked(std::span<const LightSample> samples,
+                                                std::span<const Plate> plates, const MapModel& model,
+                                                const std::array<double, 3>& point) {
   const double z = point[2], focus = model.focus_depth;
   BlockedCount count;
   for (const LightSample& sample : samples) {
@@ -68,7 +69,8 @@ struct Cover {
 }
 
 /// The plain oracle: samples blocked, no maps.
-[[nodiscard]] inline std::uint32_t count_blocked_exactly(std::span<const LightSample> samples, std::span<const Plate> plates,
+[[nodiscard]] inline std::uint32_t count_blocked_exactly(std::span<const LightSample> samples,
+                                                         std::span<const Plate> plates,
                                                          const std::array<double, 3>& point) {
   return count_blocked(samples, plates, {1, 0, 0, 0, 0, 0}, point).certain;
 }

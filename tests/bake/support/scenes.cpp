@@ -71,7 +71,8 @@ Mesh plate_mesh(const Plate& p) {
 Mesh box_mesh(const glm::dvec3& low, const glm::dvec3& high) {
   Mesh mesh;
   for (int n = 0; n < 8; ++n) {
-    mesh.positions.emplace_back((n & 1) != 0 ? high.x : low.x, (n & 2) != 0 ? high.y : low.y, (n & 4) != 0 ? high.z : low.z);
+    mesh.positions.emplace_back((n & 1) != 0 ? high.x : low.x, (n & 2) != 0 ? high.y : low.y,
+                                (n & 4) != 0 ? high.z : low.z);
   }
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
@@ -82,7 +83,8 @@ Mesh box_mesh(const glm::dvec3& low, const glm::dvec3& high) {
 Mesh sphere_mesh(const glm::dvec3& center, double r, int levels) {
   Mesh mesh;
   for (int octant = 0; octant < 8; ++octant) {
-    const glm::dvec3 x((octant & 1) != 0 ? -1 : 1, 0, 0), y(0, (octant & 2) != 0 ? -1 : 1, 0), z(0, 0, (octant & 4) != 0 ? -1 : 1);
+    const glm::dvec3 x((octant & 1) != 0 ? -1 : 1, 0, 0), y(0, (octant & 2) != 0 ? -1 : 1, 0),
+        z(0, 0, (octant & 4) != 0 ? -1 : 1);
     const bool flipped = x.x * y.y * z.z < 0;
     add_sphere_face(mesh, center, r, x, flipped ? z : y, flipped ? y : z, levels);
   }
@@ -108,6 +110,8 @@ void add(Scene& scene, Mesh mesh, Roles roles) {
   scene.geometry.push_back(std::move(geometry));
 }
 
-void add(Scene& scene, const Plate& plate, Roles roles) { add(scene, plate_mesh(plate), roles); }
+void add(Scene& scene, const Plate& plate, Roles roles) {
+  add(scene, plate_mesh(plate), roles);
+}
 
 }  // namespace pdsm::test

@@ -23,7 +23,8 @@ inline constexpr double kWide = 1000;
 /// Sets window [-x, -y, x, y] (tangents), near and far, so that a test knows its view.
 void set_view(Light& light, double x, double y, double near_depth, double far_depth);
 
-[[nodiscard]] Mesh quad_mesh(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
+[[nodiscard]] Mesh quad_mesh(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                             const glm::dvec3& d);
 [[nodiscard]] Mesh plate_mesh(const Plate& plate);
 /// A closed box, outward normals.
 [[nodiscard]] Mesh box_mesh(const glm::dvec3& low, const glm::dvec3& high);

@@ -8,7 +8,8 @@
 namespace pdsm::test {
 namespace {
 
-std::vector<float> draw_depths(Random& random, Shape shape, const View& view, double delta, std::uint32_t steps) {
+std::vector<float> draw_depths(Random& random, Shape shape, const View& view, double delta,
+                               std::uint32_t steps) {
   const double near = view.near_depth, far = view.far_depth, code = (far - near) / 0xFFFF;
   std::vector<float> depths;
   for (std::uint32_t n = 0; n < steps; ++n) {
@@ -31,16 +32,25 @@ std::vector<float> draw_depths(Random& random, Shape shape, const View& view, do
   return depths;
 }
 
-std::uint32_t draw_count(Random& random, Shape shape, std::uint32_t n, std::uint32_t steps, std::uint32_t total) {
+std::uint32_t draw_count(Random& random, Shape shape, std::uint32_t n, std::uint32_t steps,
+                         std::uint32_t total) {
   const double share = static_cast<double>(n + 1) / steps, most = total;
-  const auto part = [&](double x) { return static_cast<std::uint32_t>(std::lround(std::clamp(x, 0.0, 1.0) * most)); };
+  const auto part = [&](double x) {
+    return static_cast<std::uint32_t>(std::lround(std::clamp(x, 0.0, 1.0) * most));
+  };
   switch (shape) {
-    case Shape::single: return random.count(1, total);
-    case Shape::rising: return part(share);
-    case Shape::falling: return part(1 - share + 1.0 / steps);
-    case Shape::hump: return part(std::abs(std::sin(5 * share)));
-    case Shape::blinking: return n % 2 == 0 ? total : 0;
-    default: return random.count(0, total);
+    case Shape::single:
+      return random.count(1, total);
+    case Shape::rising:
+      return part(share);
+    case Shape::falling:
+      return part(1 - share + 1.0 / steps);
+    case Shape::hump:
+      return part(std::abs(std::sin(5 * share)));
+    case Shape::blinking:
+      return n % 2 == 0 ? total : 0;
+    default:
+      return random.count(0, total);
   }
 }
 
@@ -54,14 +64,15 @@ View depth_view(double near_depth, double far_depth) {
   return view;
 }
 
-StepFunction random_steps(Random& random, Shape shape, const View& view, std::uint32_t sample_count, double delta,
-                          std::uint32_t steps) {
+StepFunction random_steps(Random& random, Shape shape, const View& view, std::uint32_t sample_count,
+                          double delta, std::uint32_t steps) {
   const std::uint32_t wanted = shape == Shape::single ? 1 : steps;
   const std::vector<float> depths = draw_depths(random, shape, view, delta, wanted);
   StepFunction function;
   std::uint32_t before = 0;
   for (std::uint32_t n = 0; n < depths.size(); ++n) {
-    const std::uint32_t count = draw_count(random, shape, n, static_cast<std::uint32_t>(depths.size()), sample_count);
+    const std::uint32_t count =
+        draw_count(random, shape, n, static_cast<std::uint32_t>(depths.size()), sample_count);
     if (count == before) continue;
     function.depth.push_back(depths[n]);
     function.count.push_back(count);
@@ -73,7 +84,8 @@ StepFunction random_steps(Random& random, Shape shape, const View& view, std::ui
 StepTruth::StepTruth(const StepFunction& function, std::uint32_t sample_count)
     : depth_(function.depth.begin(), function.depth.end()) {
   std::vector<double> values{0};
-  for (const std::uint32_t count : function.count) values.push_back(static_cast<double>(count) / sample_count);
+  for (const std::uint32_t count : function.count)
+    values.push_back(static_cast<double>(count) / sample_count);
   least_ = greatest_ = {values};
   for (std::size_t run = 1; 2 * run <= values.size(); run *= 2) {
     const std::vector<double> low = least_.back(), high = greatest_.back();
@@ -111,7 +123,8 @@ double StepTruth::greatest(double z, double delta) const {
 }
 
 std::vector<double> critical_depths(const View& view, const VertexCoding& coding,
-                                    std::span<const FunctionVertex> vertices, const StepTruth& truth, double delta) {
+                                    std::span<const FunctionVertex> vertices, const StepTruth& truth,
+                                    double delta) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const double slack = depth_slack(view);
   std::vector<double> depths{view.near_depth, view.far_depth, 2 * view.far_depth};
@@ -120,13 +133,15 @@ std::vector<double> critical_depths(const View& view, const VertexCoding& coding
     depths.insert(depths.end(), {std::nextafter(z, 0.0), z, std::nextafter(z, kFar)});
   }
   for (const double x : truth.depths()) {
-    for (const double z : {x - delta, x, x + delta}) depths.insert(depths.end(), {z - 2 * slack, z, z + 2 * slack});
+    for (const double z : {x - delta, x, x + delta})
+      depths.insert(depths.end(), {z - 2 * slack, z, z + 2 * slack});
   }
   std::erase_if(depths, [&](double z) { return z < view.near_depth; });
   return depths;
 }
 
-std::vector<FunctionVertex> pack_and_unpack(const VertexCoding& coding, std::span<const FunctionVertex> vertices) {
+std::vector<FunctionVertex> pack_and_unpack(const VertexCoding& coding,
+                                            std::span<const FunctionVertex> vertices) {
   std::vector<std::uint32_t> words(coding.words_per_vertex());
   std::vector<FunctionVertex> result;
   for (const FunctionVertex& vertex : vertices) {

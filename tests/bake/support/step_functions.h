@@ -17,23 +17,23 @@ namespace pdsm::test {
 
 /// The shapes that fits are tried on.
 enum class Shape {
-  single,        ///< one step, anywhere
-  rising,        ///< the leading edge of a penumbra
-  falling,       ///< blocked from near on, then freed
-  hump,          ///< rises, falls and rises
-  wandering,     ///< any counts
-  blinking,      ///< 0 and N in turn
-  first_code,    ///< all events within the first depth code (of 16 bits)
-  last_code,     ///< all events within the last
-  near_ends      ///< events within delta of near and of far
+  single,      ///< one step, anywhere
+  rising,      ///< the leading edge of a penumbra
+  falling,     ///< blocked from near on, then freed
+  hump,        ///< rises, falls and rises
+  wandering,   ///< any counts
+  blinking,    ///< 0 and N in turn
+  first_code,  ///< all events within the first depth code (of 16 bits)
+  last_code,   ///< all events within the last
+  near_ends    ///< events within delta of near and of far
 };
-inline constexpr Shape kShapes[] = {Shape::single,    Shape::rising,   Shape::falling,    Shape::hump,
-                                    Shape::wandering, Shape::blinking, Shape::first_code, Shape::last_code,
-                                    Shape::near_ends};
+inline constexpr Shape kShapes[] = {Shape::single,     Shape::rising,    Shape::falling,
+                                    Shape::hump,       Shape::wandering, Shape::blinking,
+                                    Shape::first_code, Shape::last_code, Shape::near_ends};
 
 /// A valid step function with up to `steps` steps between near and far.
-[[nodiscard]] StepFunction random_steps(Random& random, Shape shape, const View& view, std::uint32_t sample_count,
-                                        double delta, std::uint32_t steps);
+[[nodiscard]] StepFunction random_steps(Random& random, Shape shape, const View& view,
+                                        std::uint32_t sample_count, double delta, std::uint32_t steps);
 
 /// V of a step function and its extremes over a window, in double, independent of the baker's tube.
 class StepTruth {
@@ -61,11 +61,13 @@ class StepTruth {
 /// Every depth at which a fitted function minus a bound of the tube can peak: vertices, and depths at delta
 /// from an event; each with both of its sides.
 [[nodiscard]] std::vector<double> critical_depths(const View& view, const VertexCoding& coding,
-                                                  std::span<const FunctionVertex> vertices, const StepTruth& truth,
-                                                  double delta);
+                                                  std::span<const FunctionVertex> vertices,
+                                                  const StepTruth& truth, double delta);
 
 /// Rounding of depths on the way from code to metres and back: a few steps of double at far.
-[[nodiscard]] inline double depth_slack(const View& view) { return 0x1.0p-48 * view.far_depth; }
+[[nodiscard]] inline double depth_slack(const View& view) {
+  return 0x1.0p-48 * view.far_depth;
+}
 
 /// The vertices as a file returns them.
 [[nodiscard]] std::vector<FunctionVertex> pack_and_unpack(const VertexCoding& coding,

@@ -49,7 +49,8 @@ LightSample random_sample(Random& random, const MapGrid& grid, SamplePlane plane
   const int direction = static_cast<int>(random.integer(0, 3));
   const double x = direction == 1 ? 0 : direction == 3 ? random.uniform() : 1;
   const double y = direction == 0 ? 0 : direction == 3 ? random.uniform() : 1;
-  sample.position = {sign_x * x * length * unit * grid.pitch[0], sign_y * y * length * unit * grid.pitch[1], 0};
+  sample.position = {sign_x * x * length * unit * grid.pitch[0], sign_y * y * length * unit * grid.pitch[1],
+                     0};
   if (plane == SamplePlane::tilted) sample.position[2] = random.uniform(-0.6, 0.6) * grid.near_depth;
   for (float& jitter : sample.jitter) {
     const float any = static_cast<float>(random.uniform(-0.5, 0.4999));
@@ -62,7 +63,8 @@ WalkCase random_walk_case(Random& random, SamplePlane plane) {
   WalkCase c;
   c.grid = random_grid(random);
   c.sample = random_sample(random, c.grid, plane);
-  const auto width = static_cast<std::int32_t>(c.grid.texels[0]), height = static_cast<std::int32_t>(c.grid.texels[1]);
+  const auto width = static_cast<std::int32_t>(c.grid.texels[0]),
+             height = static_cast<std::int32_t>(c.grid.texels[1]);
   c.rect.x0 = static_cast<std::int32_t>(random.integer(0, width - 1));
   c.rect.y0 = static_cast<std::int32_t>(random.integer(0, height - 1));
   if (random.chance(0.5)) c.rect.x0 = c.rect.y0 = 0;
@@ -77,8 +79,9 @@ std::vector<float> border_depths(const WalkCase& c, Walk walk) {
   std::vector<WalkStep> steps;
   for (const std::int32_t j : {c.rect.y0, c.rect.y1 - 1}) {
     for (const std::int32_t i : {c.rect.x0, c.rect.x1 - 1}) {
-      list_walk_steps(make_ray_path(c.grid, c.sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)),
-                      walk, steps);
+      list_walk_steps(
+          make_ray_path(c.grid, c.sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)), walk,
+          steps);
       for (const WalkStep& step : steps) depths.insert(depths.end(), {step.begin, step.end});
     }
   }

@@ -17,8 +17,8 @@ namespace pdsm::test {
 struct WalkCase {
   MapGrid grid;
   LightSample sample;
-  TexelRect rect;                 ///< rays, in texels of the map
-  std::vector<float> domain_ends; ///< one a ray, row by row
+  TexelRect rect;                  ///< rays, in texels of the map
+  std::vector<float> domain_ends;  ///< one a ray, row by row
 };
 
 /// Which light samples are drawn.
