@@ -32,7 +32,8 @@ void add_quality_options(CLI::App& sub, BakeCommand& command) {
   add_real(sub, "--bias", options.bias, 0, kMostMetres, "Metres; default by the texels' footprint");
   add_choice(sub, "--walk", options.walk, {{"midpoint", Walk::midpoint}, {"exact", Walk::exact}},
              "How rays are converted to texels; default exact");
-  add_choice(sub, "--receivers", options.receivers, {{"all", Receivers::all}, {"volume", Receivers::volume}, {"surfaces", Receivers::surfaces}},
+  add_choice(sub, "--receivers", options.receivers,
+             {{"all", Receivers::all}, {"volume", Receivers::volume}, {"surfaces", Receivers::surfaces}},
              "Where functions are exact; default volume: up to the last receiver");
   add_choice(sub, "--points", options.points,
              {{"lattice", PointSet::lattice}, {"jittered", PointSet::jittered}},

@@ -51,11 +51,20 @@ std::string as_text(const VerifyResult& result) {
       result.bias, result.truth_standard_error);
 }
 
+/// Whether the map's own record says that it is exact on surfaces alone.
+bool is_for_surfaces(const PenumbraMap& map) {
+  const nlohmann::ordered_json metadata = metadata_of(map);
+  const auto options = metadata.find("options");
+  return options != metadata.end() && options->is_object() && options->value("receivers", "") == "surfaces";
+}
+
 int run_verify(const VerifyCommand& command) {
   const PenumbraMap map = read_map(command.map);
   const Scene scene = read_scene(command.scene);
   const Light& light = light_of_map(scene, map, 0, command.map);
-  const VerifyResult result = verify(map, scene, light, command.options);
+  VerifyOptions options = command.options;
+  options.free_space = !is_for_surfaces(map);
+  const VerifyResult result = verify(map, scene, light, options);
   if (result.points < command.options.points) {
     write_warning(
         fmt::format("only {} of {} points found in the window", result.points, command.options.points));

@@ -85,7 +85,7 @@ void summarise(std::vector<double> errors, const Truth& truth, VerifyResult& res
 VerifyResult verify(const PenumbraMap& map, const Scene& scene, const Light& light,
                     const VerifyOptions& options) {
   if (map.views.size() != 1) throw Error(Failure::input, "views", "only maps of one view can be verified");
-  const std::uint32_t on_surfaces = (options.points + 1) / 2;
+  const std::uint32_t on_surfaces = options.free_space ? (options.points + 1) / 2 : options.points;
   std::vector<glm::dvec3> probes =
       surface_probes(scene, map.views.front(), on_surfaces, hash_bits(options.seed, kSurface));
   VerifyResult result;

@@ -10,6 +10,7 @@ namespace pdsm {
 
 struct VerifyOptions {
   std::uint32_t points = 4000;   ///< half on surfaces, half in free space; >= 1
+  bool free_space = true;        ///< false: all on surfaces, for maps that are exact there alone
   std::uint32_t samples = 4096;  ///< shadow rays a point; >= 2
   std::uint64_t seed = 0;
 };

@@ -45,14 +45,16 @@ void check_options(const BakeOptions& o) {
   require(o.threads <= 1024, "--threads", "must be at most 1024");
 }
 
-BakeOptions fill_in(const Light& light, BakeOptions o) {
-  (void)light;
+BakeOptions fill_in(BakeOptions o) {
   if (o.map_width == 0) o.map_width = o.width;
   if (o.map_height == 0) o.map_height = o.height;
   check_options(o);
   if (o.threads == 0) o.threads = static_cast<std::uint32_t>(std::max(1, omp_get_num_procs()));
   o.isa = choose_isa(o.isa);
   if (!o.light_samples.empty()) o.samples = static_cast<std::uint32_t>(o.light_samples.size());
+  // More threads than tasks would only take memory.
+  const std::uint32_t blocks = ((o.width + kBlockSize - 1) / kBlockSize) * ((o.height + kBlockSize - 1) / kBlockSize);
+  o.threads = std::min(o.threads, std::max(o.samples, blocks));
   return o;
 }
 
@@ -86,7 +88,7 @@ double default_bias(const MapGrid& grid) {
 }  // namespace
 
 BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
-    : options(fill_in(light, wanted)),
+    : options(fill_in(wanted)),
       fitted(fit_view(scene, light, options.width, options.height)),
       samples(options.light_samples.empty()
                   ? make_light_samples(light, options.samples, options.points, options.seed)

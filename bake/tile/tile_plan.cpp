@@ -16,8 +16,10 @@ namespace {
 constexpr double kExpectedEvents = 0.5;
 /// Encoded bytes per texel that a plan sets aside; the dragon needs 6 at epsilon 0.02.
 constexpr std::uint64_t kOutputBytesPerTexel = 8;
-/// Blocks being fitted, allocator slack and tables, per thread.
-constexpr std::uint64_t kThreadOverhead = std::uint64_t{12} << 20;
+/// Allocator slack and tables of a thread, besides the events of the block that it fits.
+constexpr std::uint64_t kThreadOverhead = std::uint64_t{1} << 20;
+/// Bytes per event of a block being fitted: its key, the step it makes, and the tube's runs around that.
+constexpr double kFitBytesPerEvent = 8;
 /// Tasks per thread below which a tile's samples are cut into strips.
 constexpr std::uint32_t kLeastTasksPerThread = 4;
 constexpr std::uint32_t kLargestTile = 4096;
@@ -55,7 +57,9 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   }
   const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];
   plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
-  plan.map_bytes = input.threads * (largest + kThreadOverhead);
+  const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(area(first)));
+  const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
+  plan.map_bytes = input.threads * (largest + kThreadOverhead + static_cast<std::uint64_t>(kFitBytesPerEvent * block_events));
   plan.output_bytes = texels * kOutputBytesPerTexel;
   const std::uint64_t fixed = plan.map_bytes + plan.output_bytes;
   plan.event_limit = input.memory > fixed ? input.memory - fixed : 0;

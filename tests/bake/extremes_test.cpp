@@ -138,8 +138,8 @@ TEST(Extremes, AFunctionRisesFallsAndRises) {
 }
 
 TEST(Extremes, MapsOfAnySize) {
-  for (const auto& [width, height] :
-       {std::pair(1u, 1u), std::pair(1u, 90u), std::pair(90u, 1u), std::pair(7u, 13u), std::pair(64u, 65u)}) {
+  for (const auto& [width, height] : {std::pair(1u, 1u), std::pair(1u, 90u), std::pair(90u, 1u),
+                                      std::pair(7u, 13u), std::pair(64u, 65u), std::pair(130u, 70u)}) {
     BakeOptions options = small_options(width, height, 9);
     options.bias = 0.01;
     options.epsilon = 0;
@@ -228,8 +228,9 @@ TEST(Extremes, TrianglesThatAreNotFiniteAreDroppedAndCounted) {
   Mesh dirty = *scene.geometry[0].mesh;
   const auto first = static_cast<std::uint32_t>(dirty.positions.size());
   dirty.positions.insert(dirty.positions.end(), {{kNan, 0, 3}, {0, kInf, 3}, {0, 0, -kInf}});
-  dirty.triangles.insert(dirty.triangles.begin(),
-                         {{0, 1, first}, {first + 1, 1, 2}, {first, first + 1, first + 2}, {0, 1, 99}});
+  dirty.triangles.insert(
+      dirty.triangles.begin(),
+      {{0, 1, first}, {first + 1, 1, 2}, {first, first + 1, first + 2}, {0, 1, first + 3}});
   scene.geometry[0].mesh = std::make_shared<const Mesh>(dirty);
   const BakedFunctions baked(scene, key_light(), small_options(32, 24, 16));
   expect_same_bytes(clean, baked);

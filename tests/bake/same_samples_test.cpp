@@ -48,10 +48,11 @@ double expect_oracle(const BakedFunctions& baked, const std::vector<Plate>& plat
   const auto& samples = baked.map().samples;
   const auto total = static_cast<double>(samples.size());
   double width = 0, compared = 0;
+  const double near = baked.view().near_depth;
   for (std::uint32_t j = 0; j < baked.view().height; ++j) {
     for (std::uint32_t i = 0; i < baked.view().width; ++i) {
       for (int n = 0; n < 40; ++n) {
-        const double z = kNear + (kFar - kNear) * (n + 0.37) / 40;
+        const double z = near + (kFar - near) * (n + 0.37) / 40;
         const BlockedCount blocked =
             count_blocked(samples, plates, model, {z * baked.slope_x(i), z * baked.slope_y(j), z});
         const double count = baked.value(i, j, z) * total;
@@ -132,6 +133,23 @@ TEST_P(SameSamples, TiltedSamples) {
       options.light_samples.push_back(sample);
     }
     expect_oracle({scene_of(plates), light, options}, plates, GetParam());
+  }
+}
+
+/// Samples in the light's plane, but beside the light: what hides them may lie before a near that was fitted
+/// to the light's own hull, and counts all the same, from near on.
+TEST_P(SameSamples, SamplesBesideTheLight) {
+  for (const double lift : {0.0, 1e-9}) {
+    SCOPED_TRACE(lift);
+    Light light = rect_light(0.1, 0.1);
+    light.window = {-0.2, -0.2, 0.2, 0.2};
+    light.far_depth = kFar;
+    const std::vector<Plate> plates{{1, -1, 1.5, 1, 1}, {-0.25, -0.25, 0.25, 0.25, 4}};
+    BakeOptions options = lossless({32, 32, 32, 32}, 1);
+    for (const double x : {1.25, 1.5, 1.75}) options.light_samples.push_back({{x, 0.125, lift}, {0, 0}, 1});
+    const BakedFunctions baked(scene_of(plates), light, options);
+    ASSERT_GT(baked.view().near_depth, 3.9);
+    expect_oracle(baked, plates, GetParam());
   }
 }
 

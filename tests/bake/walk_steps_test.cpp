@@ -254,6 +254,8 @@ TEST(MapGrid, RatiosRoundToTheNearestThatOneListServes) {
   EXPECT_EQ(ratio(512, 512), std::pair(1u, 1u));
   EXPECT_EQ(ratio(1536, 512), std::pair(3u, 1u));
   EXPECT_EQ(ratio(1250, 512), std::pair(2u, 1u));
+  EXPECT_EQ(ratio(1290, 512), std::pair(3u, 1u));
+  EXPECT_EQ(ratio(146, 512), std::pair(1u, 4u));
   EXPECT_EQ(ratio(128, 512), std::pair(1u, 4u));
   EXPECT_EQ(ratio(150, 512), std::pair(1u, 3u));
   EXPECT_EQ(ratio(511, 512), std::pair(1u, 1u));
