@@ -75,7 +75,9 @@ void check_samples(const std::vector<LightSample>& samples, const View& view) {
 
 /// Depth before which no caster is in the way. A fitted near is the nearest caster's in the hull, unless it
 /// was raised to its floor; before any other near, casters still count.
-double caster_clip_depth(const FittedView& fitted) {
+double caster_clip_depth(const FittedView& fitted, bool own_samples) {
+  // Samples that the caller brings may lie outside the light's shape, and so outside the hull.
+  if (own_samples) return kEmitterShare * fitted.view.near_depth;
   const double near = fitted.view.near_depth, floor = kEmitterShare * fitted.view.far_depth;
   return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack) : kEmitterShare * near;
 }
@@ -109,7 +111,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
 
 TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
   TileInput input{*embree, grid, {}, true, options.walk, options.receivers, bias, rules, options.threads,
-                  fitted.nothing_casts, bound_samples(samples), caster_clip_depth(fitted), kDepthRounding * grid.far_depth};
+                  fitted.nothing_casts && options.light_samples.empty(), bound_samples(samples), caster_clip_depth(fitted, !options.light_samples.empty()), kDepthRounding * grid.far_depth};
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
   input.shift_law = std::all_of(samples.begin(), samples.end(), obeys_shift_law);
   return input;

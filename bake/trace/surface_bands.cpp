@@ -30,8 +30,10 @@ void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, doub
     const double traced = start - static_cast<double>(ray.ray.tfar);
     const PlaneOnRay plane = plane_on_ray(scene.geometry().meshes[ray.hit.geomID], ray.hit.primID, u, v);
     const double depth = surface_depth(grid, plane, traced);
-    const double rise = std::abs(plane.slope_u) * texel_u + std::abs(plane.slope_v) * texel_v;
-    const double reach = (std::isfinite(rise) ? std::min(rise, grid.far_depth) : grid.far_depth) + margin;
+    // As for the slope bias (sample_map.cpp): over a texel, n . d shrinks by this share.
+    const double share = (std::abs(plane.slope_u) * texel_u + std::abs(plane.slope_v) * texel_v) / depth;
+    const double rise = share < 1 ? depth * share / (1 - share) : grid.far_depth;
+    const double reach = std::min(rise, grid.far_depth) + margin;
     bands.push_back({static_cast<float>(depth - reach), static_cast<float>(depth + reach)});
     start = traced - kStepShare * grid.far_depth;
   }

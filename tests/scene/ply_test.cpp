@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 #include "scene_folder.h"
 #include "test_meshes.h"
@@ -119,6 +121,37 @@ TEST_F(PlyTest, PolygonsKeepShapeAndWinding) {
   }
 }
 
+TEST_F(PlyTest, PolygonOfManyCornersIsCoveredOnce) {
+  // A star: every second corner lies inwards. Its area is the sum of the triangles from its centre.
+  const int corners = 14;
+  std::string body, face = std::to_string(corners);
+  double expected = 0;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.25;
+    body +=
+        std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
+    face += " " + std::to_string(i);
+    expected += 0.25 * std::sin(2 * std::numbers::pi / corners) / 2;
+  }
+  const auto mesh = import(kHead + "element vertex 14\n" + kVertex + "element face 1\n" + kFace +
+                           "end_header\n" + body + face + "\n")
+                        .at(0)
+                        .mesh;
+  ASSERT_EQ(mesh->triangles.size(), 12U);
+  double total = 0;
+  for (const glm::uvec3& t : mesh->triangles) {
+    const auto& p = mesh->positions;
+    const double own = glm::cross(glm::dvec3(p[t.y] - p[t.x]), glm::dvec3(p[t.z] - p[t.x])).z / 2;
+    EXPECT_GT(own, 0);
+    total += own;
+  }
+  EXPECT_NEAR(total, expected, 1e-5);
+}
+
+TEST_F(PlyTest, LastNumberNeedsNoSpaceBehindIt) {
+  EXPECT_EQ(fault(kHead + "element value 2\nproperty int a\nend_header\n1 2"), "");
+}
+
 TEST_F(PlyTest, EveryPrefixIsRefusedOrShort) {
   for (const std::string& bytes : {kAscii, binary(false), binary(true)}) {
     for (std::size_t size = 0; size < bytes.size() - 1; ++size) {
@@ -145,6 +178,7 @@ TEST_F(PlyTest, AnyFlippedBitIsReadOrRefused) {
 TEST_F(PlyTest, FaultsSayWhere) {
   const std::string vertices = kHead + "element vertex 2\n" + kVertex;
   EXPECT_EQ(fault(vertices + "end_header\n0 0 0\n0 zero 0\n"), "a.ply: vertex 1: not a number");
+  EXPECT_EQ(fault(vertices + "end_header\n0 0 0\n0 0 1.5.2\n"), "a.ply: vertex 1: not a number");
   EXPECT_EQ(fault(vertices + "end_header\n0 0 0\n          0"), "a.ply: vertex 1: the file ends");
   EXPECT_EQ(fault(vertices + "end_header\n0 0 0"), "a.ply: ends before its 2 rows of vertex");
   EXPECT_EQ(fault(vertices + "element face 1\n" + kFace + "end_header\n0 0 0\n0 0 0\n200 0 1 2"),
