@@ -118,7 +118,10 @@ nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& b
   json["events"] = report.events;
   json["texels"] = report.texels;
   json["pieces"] = report.pieces;
-  json["bytes"] = {{"file", costs.file_bytes}, {"gpu", decoded_bytes(baked)}, {"peak_memory", peak_memory()}, {"resident_after_bvh", report.resident_after_bvh}};
+  json["bytes"] = {{"file", costs.file_bytes},
+                   {"gpu", decoded_bytes(baked)},
+                   {"peak_memory", peak_memory()},
+                   {"resident_after_bvh", report.resident_after_bvh}};
   json["samples"] = report.samples;
   json["resolution"] = {options.width, options.height};
   json["epsilon"] = report.epsilon;

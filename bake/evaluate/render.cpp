@@ -168,6 +168,8 @@ class Renderer {
     glm::vec3 arriving = glm::mix(kBounce, kSky, 0.5F + 0.5F * point.normal.y);
     for (const auto& light : lights_) {
       const glm::vec3 full = light->unshadowed(point);
+      // A surface that is turned away from a light is dark without any shadow.
+      if (full == glm::vec3(0)) continue;
       const double v = attenuation(*light, point.position, sample);
       arriving += full * static_cast<float>(1 - v);
       sample.shade += full.y / kKeyStrength;

@@ -40,12 +40,12 @@ struct Picture {
   RgbImage linear;   ///< scene light
   RgbImage display;  ///< 0..1 display values
   /// ShadowSource::difference only: map - truth, mean over a pixel's rays, of the light where it is
-  /// largest; NaN where a pixel shows no surface.
+  /// largest; NaN where a pixel shows no surface that a light shines on.
   std::vector<float> difference;
   std::vector<float> shade;  ///< lightness 0..1 without any shadow, for a backdrop
 };
 
-/// Numbers of a difference picture, over the pixels that show a surface.
+/// Numbers of a difference picture, over the pixels that show a surface that a light shines on.
 struct DifferenceSummary {
   std::uint64_t pixels = 0;
   double mean_abs = 0, rms = 0, max = 0;

@@ -16,7 +16,8 @@ void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_co
   for (std::size_t t = 2; t < events.first.size(); ++t) events.first[t] += events.first[t - 1];
   events.keys.resize(events.first.back());
   for (const EventLog* log : logs) {
-    log->for_each([&](PackedEvent event) { events.keys[events.first[event_texel(event) + 1]++] = event_key(event); });
+    log->for_each(
+        [&](PackedEvent event) { events.keys[events.first[event_texel(event) + 1]++] = event_key(event); });
   }
   events.first.pop_back();
 }

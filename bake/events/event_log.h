@@ -22,10 +22,18 @@ using PackedEvent = std::uint64_t;
 
 /// Lower half of a packed event: orders by depth.
 using EventKey = std::uint32_t;
-[[nodiscard]] inline EventKey event_key(PackedEvent event) { return static_cast<EventKey>(event); }
-[[nodiscard]] inline std::uint32_t event_texel(PackedEvent event) { return static_cast<std::uint32_t>(event >> 32); }
-[[nodiscard]] inline float key_depth(EventKey key) { return std::bit_cast<float>(key >> 1); }
-[[nodiscard]] inline bool key_unblocks(EventKey key) { return (key & 1) != 0; }
+[[nodiscard]] inline EventKey event_key(PackedEvent event) {
+  return static_cast<EventKey>(event);
+}
+[[nodiscard]] inline std::uint32_t event_texel(PackedEvent event) {
+  return static_cast<std::uint32_t>(event >> 32);
+}
+[[nodiscard]] inline float key_depth(EventKey key) {
+  return std::bit_cast<float>(key >> 1);
+}
+[[nodiscard]] inline bool key_unblocks(EventKey key) {
+  return (key & 1) != 0;
+}
 
 /// Counts the bytes of all logs of a tile against a limit.
 class EventBudget {

@@ -39,7 +39,11 @@ class FunctionFit {
  public:
   FunctionFit(const StepFunction& function, const FitRules& rules, FitWorkspace& room,
               std::vector<FunctionVertex>& vertices)
-      : function_(function), rules_(rules), tube_(room.tube), lines_(room.lines), vertices_(vertices),
+      : function_(function),
+        rules_(rules),
+        tube_(room.tube),
+        lines_(room.lines),
+        vertices_(vertices),
         tail_(find_constant_tail(tube_)) {}
 
   void run() {
@@ -132,7 +136,8 @@ class FunctionFit {
       const std::int64_t run_close = r + 1 < tube_.size() ? std::min(end, run_end(r)) : end;
       for (const std::int64_t x : {std::max(at, tube_[r].begin), run_close}) {
         const double t = static_cast<double>(x - at) / length;
-        const double from = safe.begin + t * (safe.end - safe.begin), to = best.begin + t * (best.end - best.begin);
+        const double from = safe.begin + t * (safe.end - safe.begin),
+                     to = best.begin + t * (best.end - best.begin);
         const auto low = static_cast<double>(tube_[r].low), high = static_cast<double>(tube_[r].high);
         if (to > high) share = std::min(share, (high - from) / (to - from));
         if (to < low) share = std::min(share, (from - low) / (from - to));
@@ -149,7 +154,8 @@ class FunctionFit {
       high = std::min(high, tube_[r - 1].high);
     }
     const double last = static_cast<double>(max_value()) * function_.count.back() / rules_.sample_count;
-    const std::uint32_t value = to_code(std::clamp(last, static_cast<double>(low), static_cast<double>(high)), low, high);
+    const std::uint32_t value =
+        to_code(std::clamp(last, static_cast<double>(low), static_cast<double>(high)), low, high);
     if (vertices_.empty() && value == 0) return;
     append_vertex(at, value);
   }

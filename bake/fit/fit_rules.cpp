@@ -58,7 +58,8 @@ void fill_bounds(FitRules& rules) {
 
 }  // namespace
 
-FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon, double depth_tolerance) {
+FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon,
+                        double depth_tolerance) {
   FitRules rules;
   rules.sample_count = sample_count;
   rules.epsilon = epsilon;

@@ -15,11 +15,11 @@ inline constexpr std::int64_t kValueScale = 256;
 struct FitRules {
   VertexCoding coding;
   std::uint32_t sample_count = 1;
-  double epsilon = 0;           ///< bound on V
-  double tolerance = 0;         ///< delta, metres, after raising it to what the coding can hold
-  double tolerance_codes = 0;   ///< delta in depth codes, >= 1/2
+  double epsilon = 0;          ///< bound on V
+  double tolerance = 0;        ///< delta, metres, after raising it to what the coding can hold
+  double tolerance_codes = 0;  ///< delta in depth codes, >= 1/2
   double near_depth = 0, codes_per_metre = 0;
-  bool constant_pieces = false; ///< lossless: values are counts, pieces are steps
+  bool constant_pieces = false;  ///< lossless: values are counts, pieces are steps
   /// Bounds in scaled value codes for V = count / N, quantisation taken off: a line within them stays
   /// within epsilon when its ends are rounded to codes.
   std::vector<std::int64_t> lower, upper;

@@ -19,7 +19,7 @@ struct PieceLine {
 ///
 /// With t = x - center, length l, M0 = integral of V, M1 = integral of V t: the line is
 /// M0 / l + (12 M1 / l^3) t.
-[[nodiscard]] PieceLine least_squares_line(const StepFunction& function, const FitRules& rules, std::int64_t begin,
-                                           std::int64_t end, std::size_t& segment);
+[[nodiscard]] PieceLine least_squares_line(const StepFunction& function, const FitRules& rules,
+                                           std::int64_t begin, std::int64_t end, std::size_t& segment);
 
 }  // namespace pdsm

@@ -31,13 +31,15 @@ bool StabbingLines::passes(std::int64_t x, std::int64_t low, std::int64_t high) 
 
 void StabbingLines::extend_lower(const Point& p) {
   auto& points = lows_.points;
-  while (points.size() >= lows_.pivot + 2 && !is_left_turn(p, points.back(), points[points.size() - 2])) points.pop_back();
+  while (points.size() >= lows_.pivot + 2 && !is_left_turn(p, points.back(), points[points.size() - 2]))
+    points.pop_back();
   points.push_back(p);
 }
 
 void StabbingLines::extend_upper(const Point& p) {
   auto& points = highs_.points;
-  while (points.size() >= highs_.pivot + 2 && is_left_turn(p, points.back(), points[points.size() - 2])) points.pop_back();
+  while (points.size() >= highs_.pivot + 2 && is_left_turn(p, points.back(), points[points.size() - 2]))
+    points.pop_back();
   points.push_back(p);
 }
 
@@ -58,11 +60,15 @@ void StabbingLines::add(std::int64_t x, std::int64_t low, std::int64_t high) {
   ++windows_;
 }
 
-std::int64_t StabbingLines::reach(std::int64_t x, std::int64_t limit, std::int64_t low, std::int64_t high) const {
+std::int64_t StabbingLines::reach(std::int64_t x, std::int64_t limit, std::int64_t low,
+                                  std::int64_t high) const {
   const std::int64_t fall = steepest_.y0 - steepest_.y1, rise = shallowest_.y1 - shallowest_.y0;
   // A falling steepest line meets `low`, a rising shallowest line `high`; at most one of them is in the way.
-  if (fall > 0) limit = std::min(limit, steepest_.x0 + (steepest_.y0 - low) * (steepest_.x1 - steepest_.x0) / fall);
-  if (rise > 0) limit = std::min(limit, shallowest_.x0 + (high - shallowest_.y0) * (shallowest_.x1 - shallowest_.x0) / rise);
+  if (fall > 0)
+    limit = std::min(limit, steepest_.x0 + (steepest_.y0 - low) * (steepest_.x1 - steepest_.x0) / fall);
+  if (rise > 0)
+    limit =
+        std::min(limit, shallowest_.x0 + (high - shallowest_.y0) * (shallowest_.x1 - shallowest_.x0) / rise);
   return std::max(limit, x);
 }
 

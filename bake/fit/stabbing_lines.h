@@ -16,7 +16,8 @@ class StabbingLines {
     std::int64_t x0 = 0, y0 = 0, x1 = 1, y1 = 0;  ///< through (x0, y0) and (x1, y1), x0 < x1
 
     [[nodiscard]] double at(double x) const {
-      return static_cast<double>(y0) + (x - static_cast<double>(x0)) * static_cast<double>(y1 - y0) / static_cast<double>(x1 - x0);
+      return static_cast<double>(y0) +
+             (x - static_cast<double>(x0)) * static_cast<double>(y1 - y0) / static_cast<double>(x1 - x0);
     }
   };
 
@@ -31,7 +32,8 @@ class StabbingLines {
 
   /// The greatest position in [x, limit] at which some line still passes a window [low, high], which it
   /// does at x, the last window's position. Needs two windows.
-  [[nodiscard]] std::int64_t reach(std::int64_t x, std::int64_t limit, std::int64_t low, std::int64_t high) const;
+  [[nodiscard]] std::int64_t reach(std::int64_t x, std::int64_t limit, std::int64_t low,
+                                   std::int64_t high) const;
 
   /// The lines of greatest and least slope; they cross. Need two windows.
   [[nodiscard]] const Line& steepest() const { return steepest_; }

@@ -21,8 +21,8 @@ struct TubeRun {
 
 /// Room to work in; keep one a thread.
 struct TubeWorkspace {
-  std::vector<std::int64_t> opens, closes;      ///< of each segment of V
-  std::vector<std::uint32_t> least, greatest;   ///< monotone queues of segments
+  std::vector<std::int64_t> opens, closes;     ///< of each segment of V
+  std::vector<std::uint32_t> least, greatest;  ///< monotone queues of segments
 };
 
 /// The tube of V. Beyond its last step V is held, as the domain rule asks. O(steps).

@@ -21,7 +21,9 @@ constexpr double kInverseGoldenRatio = 0.61803398874989484820;
 constexpr double kInversePlastic = 0.75487766624669276;
 constexpr double kInversePlasticSquared = 0.56984029099805327;
 
-double fraction(double x) { return x - std::floor(x); }
+double fraction(double x) {
+  return x - std::floor(x);
+}
 
 /// Uniform in [0, 1), a pure function of its arguments (SplitMix64's finaliser, twice).
 double hash_uniform(std::uint64_t seed, std::uint64_t index, std::uint64_t dimension) {
@@ -53,9 +55,11 @@ Point2 jittered_point(std::uint32_t i, std::uint32_t count, std::uint32_t rows, 
   std::uint64_t row = (std::uint64_t{i} * rows) / n;
   while ((row + 1) * n / rows <= i) ++row;
   const std::uint64_t begin = row * n / rows, end = (row + 1) * n / rows;
-  const double x = (static_cast<double>(i - begin) + hash_uniform(seed, i, 0)) / static_cast<double>(end - begin);
-  const double y = (static_cast<double>(begin) + static_cast<double>(end - begin) * hash_uniform(seed, i, 1)) /
-                   static_cast<double>(n);
+  const double x =
+      (static_cast<double>(i - begin) + hash_uniform(seed, i, 0)) / static_cast<double>(end - begin);
+  const double y =
+      (static_cast<double>(begin) + static_cast<double>(end - begin) * hash_uniform(seed, i, 1)) /
+      static_cast<double>(n);
   return {x, y};
 }
 
@@ -64,7 +68,8 @@ Point2 concentric_disk(const Point2& square) {
   if (a == 0 && b == 0) return {0, 0};
   const bool wide = std::abs(a) > std::abs(b);
   const double r = wide ? a : b;
-  const double phi = wide ? std::numbers::pi / 4 * (b / a) : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
+  const double phi =
+      wide ? std::numbers::pi / 4 * (b / a) : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
@@ -112,11 +117,14 @@ std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t co
   std::vector<LightSample> samples(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     // One sample stands for the whole light at its centre.
-    const Point2 p = count == 1 ? Point2{0, 0} : std::visit([&](const auto& shape) {
-      return sample_shape(shape, i, count, points, seed);
-    }, light.shape);
+    const Point2 p =
+        count == 1
+            ? Point2{0, 0}
+            : std::visit([&](const auto& shape) { return sample_shape(shape, i, count, points, seed); },
+                         light.shape);
     samples[i].position = {p[0], p[1], 0};
-    samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4), map_jitter(i, kInversePlasticSquared, seed, 5)};
+    samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4),
+                         map_jitter(i, kInversePlasticSquared, seed, 5)};
     samples[i].weight = 1;
   }
   return samples;

@@ -19,16 +19,20 @@ constexpr std::uint32_t kTrialSamples = 4;
 /// Halves a tile along its longer side, at a block border. Empty when it is one block already.
 std::vector<TexelRect> split_tile(const TexelRect& tile) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
-  const std::int32_t across = (tile.x1 - tile.x0 + edge - 1) / edge, up = (tile.y1 - tile.y0 + edge - 1) / edge;
+  const std::int32_t across = (tile.x1 - tile.x0 + edge - 1) / edge,
+                     up = (tile.y1 - tile.y0 + edge - 1) / edge;
   if (across == 1 && up == 1) return {};
   TexelRect first = tile, second = tile;
-  if (across >= up) first.x1 = second.x0 = tile.x0 + across / 2 * edge;
-  else first.y1 = second.y0 = tile.y0 + up / 2 * edge;
+  if (across >= up)
+    first.x1 = second.x0 = tile.x0 + across / 2 * edge;
+  else
+    first.y1 = second.y0 = tile.y0 + up / 2 * edge;
   return {first, second};
 }
 
 double share_of(const TexelRect& tile, const MapGrid& grid) {
-  return static_cast<double>(tile.x1 - tile.x0) / grid.texels[0] * static_cast<double>(tile.y1 - tile.y0) / grid.texels[1];
+  return static_cast<double>(tile.x1 - tile.x0) / grid.texels[0] * static_cast<double>(tile.y1 - tile.y0) /
+         grid.texels[1];
 }
 
 /// Bakes all tiles, halving those whose events take too much room.
@@ -43,8 +47,9 @@ class TileRun {
       const TexelRect tile = todo.front();
       todo.pop_front();
       const double share = share_of(tile, job_.grid);
-      const TileOutcome outcome = bake_tile(input_, tile, job_.plan.strips, job_.plan.event_limit, sink_,
-                                            [&](double part) { return poll(done_ + share * part); }, statistics_);
+      const TileOutcome outcome = bake_tile(
+          input_, tile, job_.plan.strips, job_.plan.event_limit, sink_,
+          [&](double part) { return poll(done_ + share * part); }, statistics_);
       if (outcome == TileOutcome::cancelled) throw Error(Failure::interrupted, "bake", "interrupted");
       if (outcome == TileOutcome::done) {
         done_ += share;
@@ -52,7 +57,9 @@ class TileRun {
         continue;
       }
       const std::vector<TexelRect> halves = split_tile(tile);
-      if (halves.empty()) throw Error(Failure::resource, "--memory", "too little for the events of one block of 64 x 64 texels");
+      if (halves.empty())
+        throw Error(Failure::resource, "--memory",
+                    "too little for the events of one block of 64 x 64 texels");
       todo.insert(todo.begin(), halves.begin(), halves.end());
     }
     return statistics_;
@@ -109,8 +116,10 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.tiles = tiles;
   report.peak_event_bytes = done.event_bytes;
   report.resident_after_bvh = job.resident_after_bvh;
-  report.map_width = static_cast<std::uint32_t>(std::lround(job.grid.texels[0] * job.grid.ratio[0].maps_per_texel()));
-  report.map_height = static_cast<std::uint32_t>(std::lround(job.grid.texels[1] * job.grid.ratio[1].maps_per_texel()));
+  report.map_width =
+      static_cast<std::uint32_t>(std::lround(job.grid.texels[0] * job.grid.ratio[0].maps_per_texel()));
+  report.map_height =
+      static_cast<std::uint32_t>(std::lround(job.grid.texels[1] * job.grid.ratio[1].maps_per_texel()));
   report.samples = job.options.samples;
   report.tile = job.plan.edge;
   report.epsilon = job.options.epsilon;
@@ -122,14 +131,16 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.isa = job.options.isa;
   report.modelled = list_modelled_features(job);
   if (job.light_space.dropped_triangles > 0) {
-    report.warnings.push_back(std::to_string(job.light_space.dropped_triangles) + " triangles without finite coordinates left out");
+    report.warnings.push_back(std::to_string(job.light_space.dropped_triangles) +
+                              " triangles without finite coordinates left out");
   }
   return report;
 }
 
 }  // namespace
 
-BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options, const BakeCallbacks& callbacks) {
+BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options,
+              const BakeCallbacks& callbacks) {
   const double start = omp_get_wtime();
   if (callbacks.progress) callbacks.progress({"bvh", 0, 0});
   const BakeJob job(scene, light, options);
@@ -139,7 +150,8 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
   const FunctionImage& image = baked.map.images[0];
   baked.blocks.resize(1);
   baked.blocks[0].resize(std::size_t{image.blocks_across()} * image.blocks_up());
-  const BlockSink sink = [&](std::uint32_t block, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions) {
+  const BlockSink sink = [&](std::uint32_t block, std::uint32_t width, std::uint32_t height,
+                             FunctionBlock&& functions) {
     baked.blocks[0][block] = encode_block(job.rules.coding, width, height, functions);
   };
   const TileInput input = job.tile_input();
@@ -156,9 +168,11 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   const TileInput trial = job.tile_input(stride);
   const double scale = static_cast<double>(count) / static_cast<double>(trial.samples.size());
   // The trial's blocks are encoded as a bake's are, then dropped.
-  TileRun run(job, trial, [&](auto, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions) {
-    (void)encode_block(job.rules.coding, width, height, functions);
-  }, {});
+  TileRun run(job, trial,
+              [&](auto, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions) {
+                (void)encode_block(job.rules.coding, width, height, functions);
+              },
+              {});
   const TileStatistics done = run.run();
   const double per_sample = (done.trace + done.walk + done.accumulate + done.fit) / job.options.threads;
   BakePrediction prediction;
@@ -166,7 +180,8 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   prediction.events = static_cast<std::uint64_t>(static_cast<double>(done.events) * scale);
   prediction.seconds = job.seconds_bvh + done.prepare + per_sample * scale;
   const std::uint64_t tile_events = 8 * prediction.events / std::max<std::uint64_t>(1, job.plan.tiles.size());
-  prediction.memory_bytes = job.plan.map_bytes + job.plan.output_bytes + std::min(job.plan.event_limit, tile_events);
+  prediction.memory_bytes =
+      job.plan.map_bytes + job.plan.output_bytes + std::min(job.plan.event_limit, tile_events);
   prediction.tile = job.plan.edge;
   prediction.tiles = static_cast<std::uint32_t>(job.plan.tiles.size());
   return prediction;

@@ -30,14 +30,17 @@ void require(bool holds, const char* option, const std::string& reason) {
   if (!holds) throw Error(Failure::usage, option, reason);
 }
 
-bool is_length(const std::optional<double>& x) { return !x || (std::isfinite(*x) && *x >= 0); }
+bool is_length(const std::optional<double>& x) {
+  return !x || (std::isfinite(*x) && *x >= 0);
+}
 
 void check_options(const BakeOptions& o) {
   const auto is_size = [](std::uint32_t n) { return n >= 1 && n <= kMostTexels; };
   require(o.samples >= 1 && o.samples <= kMostSamples, "--samples", "must be from 1 to 65536");
   require(o.light_samples.size() <= kMostSamples, "--samples", "must be from 1 to 65536");
   require(is_size(o.width) && is_size(o.height), "--resolution", "must be from 1 to 16384 texels");
-  require(is_size(o.map_width) && is_size(o.map_height), "--map-resolution", "must be from 1 to 16384 texels");
+  require(is_size(o.map_width) && is_size(o.map_height), "--map-resolution",
+          "must be from 1 to 16384 texels");
   require(o.epsilon >= 0 && o.epsilon < 1, "--epsilon", "must be from 0 to below 1");
   require(is_length(o.depth_tolerance), "--depth-tolerance", "must be 0 or more metres");
   require(is_length(o.bias), "--bias", "must be 0 or more metres");
@@ -53,7 +56,8 @@ BakeOptions fill_in(BakeOptions o) {
   o.isa = choose_isa(o.isa);
   if (!o.light_samples.empty()) o.samples = static_cast<std::uint32_t>(o.light_samples.size());
   // More threads than tasks would only take memory.
-  const std::uint32_t blocks = ((o.width + kBlockSize - 1) / kBlockSize) * ((o.height + kBlockSize - 1) / kBlockSize);
+  const std::uint32_t blocks =
+      ((o.width + kBlockSize - 1) / kBlockSize) * ((o.height + kBlockSize - 1) / kBlockSize);
   o.threads = std::min(o.threads, std::max(o.samples, blocks));
   return o;
 }
@@ -79,7 +83,8 @@ double caster_clip_depth(const FittedView& fitted, bool own_samples) {
   // Samples that the caller brings may lie outside the light's shape, and so outside the hull.
   if (own_samples) return kEmitterShare * fitted.view.near_depth;
   const double near = fitted.view.near_depth, floor = kEmitterShare * fitted.view.far_depth;
-  return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack) : kEmitterShare * near;
+  return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack)
+                                                               : kEmitterShare * near;
 }
 
 /// A share of the map texel footprint at far, the larger of both axes.
@@ -110,8 +115,19 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
 }
 
 TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
-  TileInput input{*embree, grid, {}, true, options.walk, options.receivers, bias, rules, options.threads,
-                  fitted.nothing_casts && options.light_samples.empty(), bound_samples(samples), caster_clip_depth(fitted, !options.light_samples.empty()), kDepthRounding * grid.far_depth};
+  TileInput input{*embree,
+                  grid,
+                  {},
+                  true,
+                  options.walk,
+                  options.receivers,
+                  bias,
+                  rules,
+                  options.threads,
+                  fitted.nothing_casts && options.light_samples.empty(),
+                  bound_samples(samples),
+                  caster_clip_depth(fitted, !options.light_samples.empty()),
+                  kDepthRounding * grid.far_depth};
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
   input.shift_law = std::all_of(samples.begin(), samples.end(), obeys_shift_law);
   return input;
@@ -124,7 +140,8 @@ std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
   const VertexCoding& coding = job.rules.coding;
   std::vector<ModelledFeature> list;
   list.push_back({"shadow maps", !fitted.nothing_casts,
-                  fitted.nothing_casts ? "no caster lies between light and window" : "casters lie between light and window"});
+                  fitted.nothing_casts ? "no caster lies between light and window"
+                                       : "casters lie between light and window"});
   list.push_back({"general scan conversion", !planar,
                   planar ? "all light samples lie in the light's plane: one walk serves all rays"
                          : "light samples lie out of the light's plane"});
@@ -133,15 +150,21 @@ std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
   list.push_back({"colour", false, "the light and all casters are grey: one channel"});
   list.push_back({"faces", false, "one view holds the window"});
   list.push_back({"domain ends", job.options.receivers != Receivers::all,
-                  job.options.receivers != Receivers::all ? "functions end at the last receiver on each ray"
-                                                          : "--receivers all asks for functions exact to far"});
+                  job.options.receivers != Receivers::all
+                      ? "functions end at the last receiver on each ray"
+                      : "--receivers all asks for functions exact to far"});
   list.push_back({"surfaces alone", job.options.receivers == Receivers::surfaces,
                   job.options.receivers == Receivers::surfaces ? "--receivers surfaces leaves free space out"
                                                                : "anything may receive in free space"});
-  list.push_back({"fitted window", fitted.window_fitted, fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
-  list.push_back({"fitted near", fitted.near_fitted, fitted.near_fitted ? "nearest caster in the hull of light and window" : "given by the scene"});
-  list.push_back({"fitted far", fitted.far_fitted, fitted.far_fitted ? "last receiver in the window" : "given by the scene"});
-  list.push_back({"depths of 32 bits", coding.depth_bits == 32, "the depth tolerance needs " + bits(coding.depth_bits)});
+  list.push_back({"fitted window", fitted.window_fitted,
+                  fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
+  list.push_back(
+      {"fitted near", fitted.near_fitted,
+       fitted.near_fitted ? "nearest caster in the hull of light and window" : "given by the scene"});
+  list.push_back({"fitted far", fitted.far_fitted,
+                  fitted.far_fitted ? "last receiver in the window" : "given by the scene"});
+  list.push_back(
+      {"depths of 32 bits", coding.depth_bits == 32, "the depth tolerance needs " + bits(coding.depth_bits)});
   list.push_back({"values beyond 8 bits", coding.value_bits > 8, "epsilon needs " + bits(coding.value_bits)});
   return list;
 }

@@ -3,11 +3,11 @@
 
 #include <omp.h>
 
+#include <xmmintrin.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <xmmintrin.h>
 
 #include "events/accumulate.h"
 #include "events/event_log.h"
@@ -28,10 +28,10 @@ constexpr unsigned kFlushDenormals = 0x8040;
 
 /// One block of the tile, with all that its rays need.
 struct TileBlock {
-  TexelRect rect;                     ///< texels of the map
-  std::uint32_t index = 0;            ///< in the map
+  TexelRect rect;           ///< texels of the map
+  std::uint32_t index = 0;  ///< in the map
   std::vector<float> domain_ends;
-  std::vector<RayPacket> packets;     ///< by the shift law only
+  std::vector<RayPacket> packets;            ///< by the shift law only
   std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
 };
 
@@ -67,7 +67,8 @@ std::size_t texel_count(const TexelRect& rect) {
 
 /// Depth code of a band's border, rounded to the code below.
 std::int64_t band_code(const FitRules& rules, float depth) {
-  return static_cast<std::int64_t>(std::clamp(std::floor(rules.code_of(depth)), 0.0, static_cast<double>(rules.coding.depth_max())));
+  return static_cast<std::int64_t>(
+      std::clamp(std::floor(rules.code_of(depth)), 0.0, static_cast<double>(rules.coding.depth_max())));
 }
 
 std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const TexelRect& rect) {
@@ -78,10 +79,13 @@ std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const
     auto& codes = result.emplace_back();
     for (const DepthBand& band : bands) {
       const std::int64_t last_code = input.rules.coding.depth_max();
-      const CodeBand code{band_code(input.rules, band.first), std::min(band_code(input.rules, band.last) + 1, last_code)};
+      const CodeBand code{band_code(input.rules, band.first),
+                          std::min(band_code(input.rules, band.last) + 1, last_code)};
       if (code.first >= code.last) continue;
-      if (!codes.empty() && code.first <= codes.back().last) codes.back().last = std::max(codes.back().last, code.last);
-      else codes.push_back(code);
+      if (!codes.empty() && code.first <= codes.back().last)
+        codes.back().last = std::max(codes.back().last, code.last);
+      else
+        codes.push_back(code);
     }
   }
   return result;
@@ -89,7 +93,8 @@ std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const
 
 void prepare_block(const TileInput& input, TileBlock& block) {
   block.domain_ends.assign(texel_count(block.rect), std::numeric_limits<float>::infinity());
-  if (input.receivers != Receivers::all) find_domain_ends(input.scene, input.grid, block.rect, block.domain_ends);
+  if (input.receivers != Receivers::all)
+    find_domain_ends(input.scene, input.grid, block.rect, block.domain_ends);
   if (input.receivers == Receivers::surfaces) block.bands = find_code_bands(input, block.rect);
 }
 
@@ -106,7 +111,8 @@ void make_packets(const TileInput& input, const ShadowCells& cells, TileBlock& b
     }
   }
   std::erase_if(block.packets, [](const RayPacket& packet) {
-    return std::all_of(packet.domain_end.begin(), packet.domain_end.end(), [](float end) { return end == RayPacket::kUnused; });
+    return std::all_of(packet.domain_end.begin(), packet.domain_end.end(),
+                       [](float end) { return end == RayPacket::kUnused; });
   });
 }
 
@@ -120,7 +126,8 @@ constexpr double kFilterReach = 0.25;
 
 MapBias sample_bias(const TileInput& input, const LightSample& sample) {
   MapBias bias{input.bias, {}};
-  for (std::size_t a = 0; a < 2; ++a) bias.reach[a] = kWalkReach + kFilterReach * input.grid.ratio[a].maps_per_texel();
+  for (std::size_t a = 0; a < 2; ++a)
+    bias.reach[a] = kWalkReach + kFilterReach * input.grid.ratio[a].maps_per_texel();
   if (input.walk == Walk::exact) return bias;
   const RayPath path = make_ray_path(input.grid, sample, 0, 0);
   const bool x_major = std::abs(path.slope[0]) >= std::abs(path.slope[1]);
@@ -141,25 +148,28 @@ TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count)
 
 /// Traces what the rays of a strip look at in the map of one sample. By the shift law, only cells that may
 /// be darkened are looked at.
-void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip, const ShadowCells& cells,
-                 WalkThread& thread) {
+void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+                 const ShadowCells& cells, WalkThread& thread) {
   const MapBias bias = sample_bias(input, sample);
   const std::uint32_t interleave = input.grid.ratio[0].fine;
   if (!input.shift_law) {
     thread.map.reset(general_footprint(input.grid, sample, strip), interleave);
-    thread.statistics.rays += trace_sample_map(input.scene, input.grid, sample, bias, nullptr, thread.map, thread.slope_bias);
+    thread.statistics.rays +=
+        trace_sample_map(input.scene, input.grid, sample, bias, nullptr, thread.map, thread.slope_bias);
     return;
   }
   thread.shift.list(input.grid, sample, input.walk);
   thread.map.reset(thread.shift.footprint(strip), interleave);
   thread.mask.reset(thread.map.rect());
-  const std::int32_t first = (strip.y0 - cells.tile.y0) / kCellSize, last = (strip.y1 - 1 - cells.tile.y0) / kCellSize;
+  const std::int32_t first = (strip.y0 - cells.tile.y0) / kCellSize,
+                     last = (strip.y1 - 1 - cells.tile.y0) / kCellSize;
   for (std::int32_t y = first; y <= last; ++y) {
     for (std::int32_t x = 0; x < cells.across; ++x) {
       if (cells.may_darken(x, y)) thread.shift.want_packets(cells.cell_rect(x, y), thread.mask);
     }
   }
-  thread.statistics.rays += trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map, thread.slope_bias);
+  thread.statistics.rays +=
+      trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map, thread.slope_bias);
   thread.shift.bind(thread.map);
 }
 
@@ -169,13 +179,16 @@ void walk_strip(const TileInput& input, const LightSample& sample, const TexelRe
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const TileBlock& block = blocks[b];
     if (block.rect.y0 < strip.y0 || block.rect.y0 >= strip.y1) continue;
-    if (input.shift_law) thread.shift.walk(thread.map, block.packets, thread.logs[b]);
-    else walk_general(input.grid, sample, input.walk, thread.map, block.rect, block.domain_ends, thread.steps, thread.logs[b]);
+    if (input.shift_law)
+      thread.shift.walk(thread.map, block.packets, thread.logs[b]);
+    else
+      walk_general(input.grid, sample, input.walk, thread.map, block.rect, block.domain_ends, thread.steps,
+                   thread.logs[b]);
   }
 }
 
-void process_sample(const TileInput& input, const LightSample& sample, const TexelRect& strip, const ShadowCells& cells,
-                    const std::vector<TileBlock>& blocks, WalkThread& thread) {
+void process_sample(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+                    const ShadowCells& cells, const std::vector<TileBlock>& blocks, WalkThread& thread) {
   const double start = omp_get_wtime();
   trace_strip(input, sample, strip, cells, thread);
   const double traced = omp_get_wtime();
@@ -199,7 +212,8 @@ struct FitThread {
   TileStatistics statistics;
 };
 
-void append_function(const VertexCoding& coding, const std::vector<FunctionVertex>& vertices, FunctionBlock& block) {
+void append_function(const VertexCoding& coding, const std::vector<FunctionVertex>& vertices,
+                     FunctionBlock& block) {
   const std::size_t words = coding.words_per_vertex();
   for (const FunctionVertex& vertex : vertices) {
     block.words.resize(block.words.size() + words);
@@ -225,7 +239,8 @@ FunctionBlock fit_block(const TileInput& input, const TileBlock& block, std::spa
       const double before = omp_get_wtime();
       accumulate(std::span(thread.events.keys).subspan(first, last - first), thread.function);
       accumulated += omp_get_wtime() - before;
-      fit_function(thread.function, input.rules, thread.room, thread.vertices, block.bands.empty() ? nullptr : &block.bands[t]);
+      fit_function(thread.function, input.rules, thread.room, thread.vertices,
+                   block.bands.empty() ? nullptr : &block.bands[t]);
     }
     thread.statistics.empty_texels += thread.vertices.empty() ? 1 : 0;
     thread.statistics.pieces += thread.vertices.size();
@@ -247,8 +262,14 @@ class TileJob {
  public:
   TileJob(const TileInput& input, const TexelRect& tile, std::uint32_t strips, std::uint64_t event_limit,
           const BlockSink& sink, const TileProgress& progress)
-      : input_(input), tile_(tile), strips_(strips), sink_(sink), progress_(progress), budget_(event_limit),
-        blocks_(cut_blocks(input, tile)), walkers_(input.threads) {
+      : input_(input),
+        tile_(tile),
+        strips_(strips),
+        sink_(sink),
+        progress_(progress),
+        budget_(event_limit),
+        blocks_(cut_blocks(input, tile)),
+        walkers_(input.threads) {
     for (WalkThread& walker : walkers_) {
       for (std::size_t b = 0; b < blocks_.size(); ++b) walker.logs.emplace_back(&budget_);
     }
@@ -265,7 +286,8 @@ class TileJob {
     for (const WalkThread& walker : walkers_) {
       statistics.add(walker.statistics);
       statistics.slope_bias_sum += walker.slope_bias.sum;
-      statistics.slope_bias_max = std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
+      statistics.slope_bias_max =
+          std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
     }
     statistics.event_bytes = std::max(statistics.event_bytes, budget_.used());
     return cancelled_ ? TileOutcome::cancelled : TileOutcome::done;
@@ -273,29 +295,34 @@ class TileJob {
 
  private:
   void prepare() {
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
-    for (std::size_t b = 0; b < blocks_.size(); ++b) failure_.guard([&] { prepare_block(input_, blocks_[b]); });
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      failure_.guard([&] { prepare_block(input_, blocks_[b]); });
     failure_.rethrow();
     if (input_.nothing_casts || !input_.shift_law) return;
-    const ShadowCellInput cell_input{input_.scene.geometry(), input_.grid, input_.light_bounds, input_.clip_depth,
-                                     input_.depth_rounding, input_.threads};
-    cells_ = find_shadow_cells(cell_input, tile_, [this](std::int32_t i, std::int32_t j) { return domain_end(i, j); });
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
-    for (std::size_t b = 0; b < blocks_.size(); ++b) failure_.guard([&] { make_packets(input_, cells_, blocks_[b]); });
+    const ShadowCellInput cell_input{input_.scene.geometry(), input_.grid,           input_.light_bounds,
+                                     input_.clip_depth,       input_.depth_rounding, input_.threads};
+    cells_ = find_shadow_cells(cell_input, tile_,
+                               [this](std::int32_t i, std::int32_t j) { return domain_end(i, j); });
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      failure_.guard([&] { make_packets(input_, cells_, blocks_[b]); });
     failure_.rethrow();
   }
 
   [[nodiscard]] float domain_end(std::int32_t i, std::int32_t j) const {
     const auto edge = static_cast<std::int32_t>(kBlockSize);
     const std::int32_t across = (tile_.x1 - tile_.x0 + edge - 1) / edge;
-    const TileBlock& block = blocks_[static_cast<std::size_t>((j - tile_.y0) / edge * across + (i - tile_.x0) / edge)];
-    return block.domain_ends[static_cast<std::size_t>((j - block.rect.y0) * (block.rect.x1 - block.rect.x0) + i - block.rect.x0)];
+    const TileBlock& block =
+        blocks_[static_cast<std::size_t>((j - tile_.y0) / edge * across + (i - tile_.x0) / edge)];
+    return block.domain_ends[static_cast<std::size_t>((j - block.rect.y0) * (block.rect.x1 - block.rect.x0) +
+                                                      i - block.rect.x0)];
   }
 
   void walk() {
     const std::size_t tasks = input_.samples.size() * strips_;
     std::atomic<std::size_t> done = 0;
-#pragma omp parallel num_threads(static_cast<int>(input_.threads))
+#pragma omp parallel num_threads(static_cast <int>(input_.threads))
     {
       const unsigned control = _mm_getcsr();
       _mm_setcsr(control | kFlushDenormals);
@@ -305,7 +332,8 @@ class TileJob {
         if (cancelled_ || budget_.exceeded()) continue;
         failure_.guard([&] {
           const TexelRect strip = cut_strip(tile_, static_cast<std::uint32_t>(task % strips_), strips_);
-          if (strip.y0 < strip.y1) process_sample(input_, input_.samples[task / strips_], strip, cells_, blocks_, thread);
+          if (strip.y0 < strip.y1)
+            process_sample(input_, input_.samples[task / strips_], strip, cells_, blocks_, thread);
         });
         report(kWalkShare * static_cast<double>(++done) / static_cast<double>(tasks));
       }
@@ -317,11 +345,12 @@ class TileJob {
   void fit(TileStatistics& statistics) {
     std::vector<FitThread> fitters(input_.threads);
     std::atomic<std::size_t> done = 0;
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(input_.threads))
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       if (cancelled_) continue;
       failure_.guard([&] { fit_and_hand_over(b, fitters[static_cast<std::size_t>(omp_get_thread_num())]); });
-      report(kWalkShare + (1 - kWalkShare) * static_cast<double>(++done) / static_cast<double>(blocks_.size()));
+      report(kWalkShare +
+             (1 - kWalkShare) * static_cast<double>(++done) / static_cast<double>(blocks_.size()));
     }
     failure_.rethrow();
     for (const FitThread& thread : fitters) statistics.add(thread.statistics);
@@ -373,8 +402,9 @@ void TileStatistics::add(const TileStatistics& other) {
   slope_bias_max = std::max(slope_bias_max, other.slope_bias_max);
 }
 
-TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips, std::uint64_t event_limit,
-                      const BlockSink& sink, const TileProgress& progress, TileStatistics& statistics) {
+TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips,
+                      std::uint64_t event_limit, const BlockSink& sink, const TileProgress& progress,
+                      TileStatistics& statistics) {
   return TileJob(input, tile, strips, event_limit, sink, progress).run(statistics);
 }
 

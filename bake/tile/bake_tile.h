@@ -17,16 +17,16 @@ struct TileInput {
   const EmbreeScene& scene;
   MapGrid grid;
   std::vector<LightSample> samples;
-  bool shift_law = true;          ///< all samples obey it
+  bool shift_law = true;  ///< all samples obey it
   Walk walk = Walk::exact;
   Receivers receivers = Receivers::volume;
-  double bias = 0;                ///< metres
+  double bias = 0;  ///< metres
   FitRules rules;
   std::uint32_t threads = 1;
-  bool nothing_casts = false;     ///< every function is empty: trace no maps
-  LightBounds light_bounds;       ///< of all samples of the bake
-  double clip_depth = 0;          ///< casters before this depth are out of the hull of light and window
-  double depth_rounding = 0;      ///< metres: what traced depths may be off
+  bool nothing_casts = false;  ///< every function is empty: trace no maps
+  LightBounds light_bounds;    ///< of all samples of the bake
+  double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
+  double depth_rounding = 0;   ///< metres: what traced depths may be off
 };
 
 /// What a tile did; sums over its threads.
@@ -41,7 +41,8 @@ struct TileStatistics {
 
 /// Takes finished blocks: index of the block in the map, its size in texels, its functions. Called from
 /// several threads at once, once a block.
-using BlockSink = std::function<void(std::uint32_t block, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions)>;
+using BlockSink = std::function<void(std::uint32_t block, std::uint32_t width, std::uint32_t height,
+                                     FunctionBlock&& functions)>;
 
 /// Called from one thread while a tile is baked: share done 0..1. Returns true to cancel.
 using TileProgress = std::function<bool(double share)>;
@@ -51,7 +52,7 @@ enum class TileOutcome { done, events_exceeded, cancelled };
 /// Bakes the functions of `tile`: a pure function of its arguments. Nothing is given to `sink` when events
 /// exceed `event_limit` bytes; what a cancelled tile has given is incomplete.
 [[nodiscard]] TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips,
-                                    std::uint64_t event_limit, const BlockSink& sink, const TileProgress& progress,
-                                    TileStatistics& statistics);
+                                    std::uint64_t event_limit, const BlockSink& sink,
+                                    const TileProgress& progress, TileStatistics& statistics);
 
 }  // namespace pdsm

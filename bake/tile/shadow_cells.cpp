@@ -35,14 +35,20 @@ ClippedTriangle clip_front(const LightSpaceMesh& mesh, const glm::uvec3& t, doub
 /// Cells, half-open.
 struct CellRange {
   std::int64_t x0, y0, x1, y1;
-  [[nodiscard]] std::int64_t count() const { return std::max<std::int64_t>(0, x1 - x0) * std::max<std::int64_t>(0, y1 - y0); }
+  [[nodiscard]] std::int64_t count() const {
+    return std::max<std::int64_t>(0, x1 - x0) * std::max<std::int64_t>(0, y1 - y0);
+  }
 };
 
 class CellMarker {
  public:
   CellMarker(const ShadowCellInput& input, const TexelRect& tile, const DomainEndAt& domain_end)
-      : input_(input), domain_end_(domain_end), cells_{tile, (tile.x1 - tile.x0 + kCellSize - 1) / kCellSize,
-                                                       (tile.y1 - tile.y0 + kCellSize - 1) / kCellSize, {}} {
+      : input_(input),
+        domain_end_(domain_end),
+        cells_{tile,
+               (tile.x1 - tile.x0 + kCellSize - 1) / kCellSize,
+               (tile.y1 - tile.y0 + kCellSize - 1) / kCellSize,
+               {}} {
     cells_.dark.assign(cell_count(), 0);
     find_last_ends();
   }
@@ -86,7 +92,7 @@ class CellMarker {
 
   /// Each thread marks cells of its own; a mark never depends on other marks.
   void mark_mesh(const LightSpaceMesh& mesh) {
-#pragma omp parallel num_threads(static_cast<int>(input_.threads))
+#pragma omp parallel num_threads(static_cast <int>(input_.threads))
     {
       std::vector<std::uint8_t> dark(cell_count(), 0);
 #pragma omp for schedule(static) nowait
@@ -107,7 +113,8 @@ class CellMarker {
       for (std::int64_t x = range.x0; x < range.x1; ++x) {
         const auto cell = static_cast<std::size_t>(y * cells_.across + x);
         if (dark[cell] != 0 || first_depth >= static_cast<double>(last_end_[cell])) continue;
-        if (ask_plane && stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y))) continue;
+        if (ask_plane && stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)))
+          continue;
         dark[cell] = 1;
       }
     }
@@ -126,7 +133,8 @@ class CellMarker {
       }
       const auto axis = static_cast<std::size_t>(a);
       const MapGrid& grid = input_.grid;
-      const double pad = kTexelReach * grid.pitch[axis], pitch = grid.pitch[axis] * grid.ratio[axis].maps_per_texel();
+      const double pad = kTexelReach * grid.pitch[axis],
+                   pitch = grid.pitch[axis] * grid.ratio[axis].maps_per_texel();
       least += -input_.light.max[axis] * spread - pad;
       greatest += -input_.light.min[axis] * spread + pad;
       low[a] = to_cell((least - grid.origin[axis]) / pitch, start[a], cells[a]);
@@ -137,11 +145,13 @@ class CellMarker {
 
   /// Cell of a texel coordinate, between -1 and `most`.
   static std::int64_t to_cell(double texel, std::int32_t start, std::int32_t most) {
-    return static_cast<std::int64_t>(std::clamp(std::floor((texel - start) / kCellSize), -1.0, static_cast<double>(most)));
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor((texel - start) / kCellSize), -1.0, static_cast<double>(most)));
   }
 
   /// Whether light and all rays of a cell, up to their ends, stay on one side of the triangle's plane.
-  [[nodiscard]] bool stays_in_front(const LightSpaceMesh& mesh, const glm::uvec3& t, std::int32_t x, std::int32_t y) const {
+  [[nodiscard]] bool stays_in_front(const LightSpaceMesh& mesh, const glm::uvec3& t, std::int32_t x,
+                                    std::int32_t y) const {
     const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
     glm::dvec3 normal = glm::cross(b - a, c - a);
     double offset = glm::dot(normal, a);
@@ -172,7 +182,8 @@ class CellMarker {
 }  // namespace
 
 LightBounds bound_samples(std::span<const LightSample> samples) {
-  LightBounds bounds{samples[0].position[0], samples[0].position[1], samples[0].position[0], samples[0].position[1]};
+  LightBounds bounds{samples[0].position[0], samples[0].position[1], samples[0].position[0],
+                     samples[0].position[1]};
   for (const LightSample& sample : samples) {
     for (std::size_t a = 0; a < 2; ++a) {
       bounds.min[a] = std::min(bounds.min[a], sample.position[a]);
@@ -187,7 +198,8 @@ TexelRect ShadowCells::cell_rect(std::int32_t x, std::int32_t y) const {
   return {x0, y0, std::min(x0 + kCellSize, tile.x1), std::min(y0 + kCellSize, tile.y1)};
 }
 
-ShadowCells find_shadow_cells(const ShadowCellInput& input, const TexelRect& tile, const DomainEndAt& domain_end) {
+ShadowCells find_shadow_cells(const ShadowCellInput& input, const TexelRect& tile,
+                              const DomainEndAt& domain_end) {
   return CellMarker(input, tile, domain_end).run();
 }
 

@@ -38,7 +38,8 @@ struct ShadowCells {
 
   [[nodiscard]] TexelRect cell_rect(std::int32_t x, std::int32_t y) const;
   [[nodiscard]] bool may_darken(std::int32_t x, std::int32_t y) const {
-    return dark[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] != 0;
+    return dark[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
+                static_cast<std::size_t>(x)] != 0;
   }
 };
 
@@ -48,8 +49,8 @@ struct ShadowCellInput {
   const LightSpaceScene& scene;
   const MapGrid& grid;
   LightBounds light;
-  double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
-  double depth_rounding = 0;   ///< metres: what a domain end may be off its surface
+  double clip_depth = 0;      ///< casters before this depth are out of the hull of light and window
+  double depth_rounding = 0;  ///< metres: what a domain end may be off its surface
   std::uint32_t threads = 1;
 };
 

@@ -24,10 +24,13 @@ constexpr double kFitBytesPerEvent = 8;
 constexpr std::uint32_t kLeastTasksPerThread = 4;
 constexpr std::uint32_t kLargestTile = 4096;
 
-std::uint32_t round_up_to_block(std::uint32_t texels) { return (texels + kBlockSize - 1) / kBlockSize * kBlockSize; }
+std::uint32_t round_up_to_block(std::uint32_t texels) {
+  return (texels + kBlockSize - 1) / kBlockSize * kBlockSize;
+}
 
 std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
-  const auto width = static_cast<std::int32_t>(grid.texels[0]), height = static_cast<std::int32_t>(grid.texels[1]);
+  const auto width = static_cast<std::int32_t>(grid.texels[0]),
+             height = static_cast<std::int32_t>(grid.texels[1]);
   const auto step = static_cast<std::int32_t>(edge);
   std::vector<TexelRect> tiles;
   for (std::int32_t y = 0; y < height; y += step) {
@@ -52,14 +55,16 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   for (const LightSample& sample : input.samples) {
     const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
     largest = std::max(largest, SampleMap::bytes_for(footprint, input.grid.ratio[0].fine));
-    margin_factor += static_cast<double>(SampleMap::bytes_for(footprint, input.grid.ratio[0].fine) / sizeof(float)) /
-                     static_cast<double>(area(first));
+    margin_factor +=
+        static_cast<double>(SampleMap::bytes_for(footprint, input.grid.ratio[0].fine) / sizeof(float)) /
+        static_cast<double>(area(first));
   }
   const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];
   plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
   const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(area(first)));
   const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
-  plan.map_bytes = input.threads * (largest + kThreadOverhead + static_cast<std::uint64_t>(kFitBytesPerEvent * block_events));
+  plan.map_bytes = input.threads *
+                   (largest + kThreadOverhead + static_cast<std::uint64_t>(kFitBytesPerEvent * block_events));
   plan.output_bytes = texels * kOutputBytesPerTexel;
   const std::uint64_t fixed = plan.map_bytes + plan.output_bytes;
   plan.event_limit = input.memory > fixed ? input.memory - fixed : 0;
@@ -71,10 +76,12 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
 /// Whether a tile's expected events, and the pages that all threads have open, fit.
 bool fits(const PlanInput& input, const TilePlan& plan) {
   const std::uint64_t texels = area(plan.tiles.front());
-  const double events = kExpectedEvents * static_cast<double>(texels) * static_cast<double>(input.samples.size());
+  const double events =
+      kExpectedEvents * static_cast<double>(texels) * static_cast<double>(input.samples.size());
   const std::uint64_t blocks = texels / (kBlockSize * kBlockSize) + 1;
   const std::uint64_t open_pages = blocks * input.threads * EventLog::kPageEvents * sizeof(PackedEvent);
-  return events * sizeof(PackedEvent) + static_cast<double>(open_pages) <= static_cast<double>(plan.event_limit);
+  return events * sizeof(PackedEvent) + static_cast<double>(open_pages) <=
+         static_cast<double>(plan.event_limit);
 }
 
 }  // namespace
@@ -89,14 +96,16 @@ TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk 
 TilePlan plan_tiles(const PlanInput& input) {
   const std::uint32_t whole = round_up_to_block(std::max(input.grid.texels[0], input.grid.texels[1]));
   if (input.edge != 0) return make_plan(input, std::min(input.edge, whole));
-  for (std::uint32_t edge = std::min(whole, kLargestTile); edge > kBlockSize; edge = round_up_to_block(edge / 2)) {
+  for (std::uint32_t edge = std::min(whole, kLargestTile); edge > kBlockSize;
+       edge = round_up_to_block(edge / 2)) {
     TilePlan plan = make_plan(input, edge);
     if (fits(input, plan)) return plan;
   }
   TilePlan plan = make_plan(input, kBlockSize);
   if (plan.event_limit == 0) {
     const std::uint64_t least = (plan.map_bytes + plan.output_bytes) >> 20;
-    throw Error(Failure::resource, "--memory", "this map needs more than " + std::to_string(least) + "M; fewer threads need less");
+    throw Error(Failure::resource, "--memory",
+                "this map needs more than " + std::to_string(least) + "M; fewer threads need less");
   }
   return plan;
 }

@@ -13,13 +13,13 @@ namespace pdsm {
 
 /// Tiles of a bake and what they take. A tile is baked by all threads together: they share its samples.
 struct TilePlan {
-  std::uint32_t edge = 0;              ///< texels, a multiple of kBlockSize
-  std::vector<TexelRect> tiles;        ///< texels of the map, row by row
+  std::uint32_t edge = 0;        ///< texels, a multiple of kBlockSize
+  std::vector<TexelRect> tiles;  ///< texels of the map, row by row
   std::uint64_t rays = 0;
-  std::uint64_t map_bytes = 0;         ///< what all threads own: sample maps, blocks being fitted
-  std::uint64_t event_limit = 0;       ///< bytes that the events of a tile may take
-  std::uint64_t output_bytes = 0;      ///< encoded blocks, estimated
-  std::uint32_t strips = 1;            ///< parts of a tile for one sample, when samples are few
+  std::uint64_t map_bytes = 0;     ///< what all threads own: sample maps, blocks being fitted
+  std::uint64_t event_limit = 0;   ///< bytes that the events of a tile may take
+  std::uint64_t output_bytes = 0;  ///< encoded blocks, estimated
+  std::uint32_t strips = 1;        ///< parts of a tile for one sample, when samples are few
 };
 
 /// What plans depend on.

@@ -37,8 +37,9 @@ float end_depth(const EmbreeScene& scene, const MapGrid& grid, const RTCRayHit16
                 std::int32_t x, std::int32_t y) {
   if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<float>::infinity();
   const LightSpaceMesh& mesh = scene.geometry().meshes[packet.hit.geomID[lane]];
-  const PlaneOnRay plane = plane_on_ray(mesh, packet.hit.primID[lane], grid.center_slope(0, static_cast<std::uint32_t>(x)),
-                                        grid.center_slope(1, static_cast<std::uint32_t>(y)));
+  const PlaneOnRay plane =
+      plane_on_ray(mesh, packet.hit.primID[lane], grid.center_slope(0, static_cast<std::uint32_t>(x)),
+                   grid.center_slope(1, static_cast<std::uint32_t>(y)));
   const double traced = receiver_ray_start(grid) - static_cast<double>(packet.ray.tfar[lane]);
   return static_cast<float>(surface_depth(grid, plane, traced));
 }
@@ -47,7 +48,8 @@ float end_depth(const EmbreeScene& scene, const MapGrid& grid, const RTCRayHit16
 
 void find_domain_ends(const EmbreeScene& scene, const MapGrid& grid, const TexelRect& rect,
                       std::span<float> ends) {
-  assert(ends.size() == static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0));
+  assert(ends.size() ==
+         static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0));
   ReceiverContext receiver;
   alignas(64) int valid[kPacketRays];
   RTCRayHit16 packet;

@@ -65,7 +65,8 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (!scene.meshes[i].triangles.empty()) attach_mesh(device_, scene_, scene.meshes[i], static_cast<unsigned>(i));
+    if (!scene.meshes[i].triangles.empty())
+      attach_mesh(device_, scene_, scene.meshes[i], static_cast<unsigned>(i));
   }
   rtcCommitScene(scene_);
 }

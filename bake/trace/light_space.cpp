@@ -17,7 +17,9 @@ glm::dmat4 to_matrix(const RigidTransform& transform) {
   return m;
 }
 
-bool is_finite(const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool is_finite(const glm::vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_light, std::uint64_t& dropped) {
   LightSpaceMesh mesh;
@@ -35,8 +37,10 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
     const auto count = mesh.positions.size();
     const bool good = t.x < count && t.y < count && t.z < count && is_finite(mesh.positions[t.x]) &&
                       is_finite(mesh.positions[t.y]) && is_finite(mesh.positions[t.z]);
-    if (good) mesh.triangles.push_back(t);
-    else ++dropped;
+    if (good)
+      mesh.triangles.push_back(t);
+    else
+      ++dropped;
   }
   return mesh;
 }

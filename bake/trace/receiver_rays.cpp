@@ -32,7 +32,9 @@ ReceiverContext::ReceiverContext() {
   context.filter = keep_light_facing;
 }
 
-double receiver_ray_start(const MapGrid& grid) { return grid.far_depth * (1 + kBehindFar); }
+double receiver_ray_start(const MapGrid& grid) {
+  return grid.far_depth * (1 + kBehindFar);
+}
 
 PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, double u, double v) {
   // n . z (u, v, 1) = c, so z = c / (n . d), and dz/du = -z n_x / (n . d).

@@ -20,7 +20,7 @@ struct ReceiverContext {
 
 /// The plane of a triangle on the PDSM ray of slope (u, v).
 struct PlaneOnRay {
-  double depth = 0;             ///< metres
+  double depth = 0;                 ///< metres
   double slope_u = 0, slope_v = 0;  ///< change of depth per change of slope, metres
 };
 [[nodiscard]] PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, double u, double v);

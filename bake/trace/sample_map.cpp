@@ -105,7 +105,8 @@ void SampleMap::reset(const TexelRect& rect, std::uint32_t interleave) {
   interleave_ = interleave;
   plane_ = (rect_.x1 - rect_.x0) / interleave_;
   pitch_ = rect_.x1 - rect_.x0;
-  depth_.resize(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rect_.y1 - rect_.y0) + kLoadPadding);
+  depth_.resize(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rect_.y1 - rect_.y0) +
+                kLoadPadding);
 }
 
 void SampleMap::set_packet(std::int64_t x, std::int64_t y, const float* depths) {
@@ -123,19 +124,23 @@ void SampleMap::set_packet(std::int64_t x, std::int64_t y, const float* depths) 
 
 std::uint64_t SampleMap::bytes_for(const TexelRect& rect, std::uint32_t interleave) {
   const TexelRect wide = widen_to_packets(rect, interleave);
-  const auto texels = static_cast<std::uint64_t>(wide.x1 - wide.x0) * static_cast<std::uint64_t>(wide.y1 - wide.y0);
+  const auto texels =
+      static_cast<std::uint64_t>(wide.x1 - wide.x0) * static_cast<std::uint64_t>(wide.y1 - wide.y0);
   return (texels + kLoadPadding) * sizeof(float);
 }
 
 void PacketMask::reset(const TexelRect& rect) {
   rect_ = rect;
   across_ = (rect.x1 - rect.x0) / kPacketEdge;
-  wanted_.assign(static_cast<std::size_t>(across_) * static_cast<std::size_t>((rect.y1 - rect.y0) / kPacketEdge), 0);
+  wanted_.assign(
+      static_cast<std::size_t>(across_) * static_cast<std::size_t>((rect.y1 - rect.y0) / kPacketEdge), 0);
 }
 
 void PacketMask::want(const TexelRect& texels) {
-  const std::int32_t x0 = (texels.x0 - rect_.x0) / kPacketEdge, x1 = (texels.x1 - 1 - rect_.x0) / kPacketEdge + 1;
-  const std::int32_t y0 = (texels.y0 - rect_.y0) / kPacketEdge, y1 = (texels.y1 - 1 - rect_.y0) / kPacketEdge + 1;
+  const std::int32_t x0 = (texels.x0 - rect_.x0) / kPacketEdge,
+                     x1 = (texels.x1 - 1 - rect_.x0) / kPacketEdge + 1;
+  const std::int32_t y0 = (texels.y0 - rect_.y0) / kPacketEdge,
+                     y1 = (texels.y1 - 1 - rect_.y0) / kPacketEdge + 1;
   for (std::int32_t y = y0; y < y1; ++y) {
     std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(y) * across_ + x0, x1 - x0, std::uint8_t{1});
   }

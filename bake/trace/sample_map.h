@@ -27,7 +27,8 @@ class PacketMask {
   /// Wants all packets that `texels`, within the rectangle, touches.
   void want(const TexelRect& texels);
   [[nodiscard]] bool is_wanted(std::int32_t x, std::int32_t y) const {
-    return wanted_[static_cast<std::size_t>((y - rect_.y0) / kPacketEdge * across_ + (x - rect_.x0) / kPacketEdge)] != 0;
+    return wanted_[static_cast<std::size_t>((y - rect_.y0) / kPacketEdge * across_ +
+                                            (x - rect_.x0) / kPacketEdge)] != 0;
   }
 
  private:
@@ -47,12 +48,15 @@ class SampleMap {
   [[nodiscard]] const TexelRect& rect() const { return rect_; }
   [[nodiscard]] std::ptrdiff_t index(std::int64_t x, std::int64_t y) const {
     const std::int64_t column = x - rect_.x0;
-    return static_cast<std::ptrdiff_t>((y - rect_.y0) * pitch_ + column % interleave_ * plane_ + column / interleave_);
+    return static_cast<std::ptrdiff_t>((y - rect_.y0) * pitch_ + column % interleave_ * plane_ +
+                                       column / interleave_);
   }
   [[nodiscard]] float at(std::int64_t x, std::int64_t y) const {
     return depth_[static_cast<std::size_t>(index(x, y))];
   }
-  void set(std::int64_t x, std::int64_t y, float depth) { depth_[static_cast<std::size_t>(index(x, y))] = depth; }
+  void set(std::int64_t x, std::int64_t y, float depth) {
+    depth_[static_cast<std::size_t>(index(x, y))] = depth;
+  }
   /// Stores the depths of a packet of 4 x 4 texels, row by row, whose lower corner is (x, y).
   void set_packet(std::int64_t x, std::int64_t y, const float* depths);
   [[nodiscard]] const float* data() const { return depth_.data(); }
@@ -73,7 +77,7 @@ class SampleMap {
 /// all points of the surface within `reach` texels of its centre; on a plane these are at most
 /// `reach` times the depth's slope per texel behind it.
 struct MapBias {
-  double constant = 0;                 ///< metres, the same everywhere
+  double constant = 0;                    ///< metres, the same everywhere
   std::array<double, 2> reach{0.5, 0.5};  ///< map texels along x and y
 };
 

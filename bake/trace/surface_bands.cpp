@@ -15,15 +15,26 @@ constexpr double kStepShare = 1e-6;
 using Bands = std::vector<DepthBand>;
 
 /// Bands of all light-facing receiver surfaces on one PDSM ray, unsorted.
-void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, double v, double margin, Bands& bands) {
+void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, double v, double margin,
+                   Bands& bands) {
   ReceiverContext receiver;
-  const double texel_u = grid.pitch[0] * grid.ratio[0].maps_per_texel(), texel_v = grid.pitch[1] * grid.ratio[1].maps_per_texel();
+  const double texel_u = grid.pitch[0] * grid.ratio[0].maps_per_texel(),
+               texel_v = grid.pitch[1] * grid.ratio[1].maps_per_texel();
   double start = receiver_ray_start(grid);
   while (start > grid.near_depth) {
     RTCRayHit ray{};
-    ray.ray = {static_cast<float>(u * start), static_cast<float>(v * start), static_cast<float>(start), 0,
-               static_cast<float>(-u), static_cast<float>(-v), -1, 0,
-               static_cast<float>(start), kReceiverMask, 0, 0};
+    ray.ray = {static_cast<float>(u * start),
+               static_cast<float>(v * start),
+               static_cast<float>(start),
+               0,
+               static_cast<float>(-u),
+               static_cast<float>(-v),
+               -1,
+               0,
+               static_cast<float>(start),
+               kReceiverMask,
+               0,
+               0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene.handle(), &receiver.context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
@@ -41,11 +52,14 @@ void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, doub
 
 /// Sorts bands and joins those that overlap.
 void join_bands(Bands& bands) {
-  std::sort(bands.begin(), bands.end(), [](const DepthBand& a, const DepthBand& b) { return a.first < b.first; });
+  std::sort(bands.begin(), bands.end(),
+            [](const DepthBand& a, const DepthBand& b) { return a.first < b.first; });
   std::size_t kept = 0;
   for (const DepthBand& band : bands) {
-    if (kept > 0 && band.first <= bands[kept - 1].last) bands[kept - 1].last = std::max(bands[kept - 1].last, band.last);
-    else bands[kept++] = band;
+    if (kept > 0 && band.first <= bands[kept - 1].last)
+      bands[kept - 1].last = std::max(bands[kept - 1].last, band.last);
+    else
+      bands[kept++] = band;
   }
   bands.resize(kept);
 }

@@ -18,7 +18,8 @@ struct DepthBand {
 /// asks four texels, up to a texel away: so each light-facing receiver surface on the ray of a texel or of
 /// one of its eight neighbours gives the band of depths that its plane takes within a texel of that ray,
 /// widened by `margin` metres. Any thread.
-[[nodiscard]] std::vector<std::vector<DepthBand>> find_surface_bands(const EmbreeScene& scene, const MapGrid& grid,
+[[nodiscard]] std::vector<std::vector<DepthBand>> find_surface_bands(const EmbreeScene& scene,
+                                                                     const MapGrid& grid,
                                                                      const TexelRect& rect, double margin);
 
 }  // namespace pdsm

@@ -11,8 +11,8 @@ namespace {
 /// The midpoint walk may pick a texel beside the path.
 constexpr std::int32_t kMidpointMargin = 1;
 
-void walk_ray(const RayPath& path, const std::vector<WalkStep>& steps, const SampleMap& map, std::uint32_t texel,
-              float domain_end, EventLog& log) {
+void walk_ray(const RayPath& path, const std::vector<WalkStep>& steps, const SampleMap& map,
+              std::uint32_t texel, float domain_end, EventLog& log) {
   bool blocked = false;
   for (const WalkStep& step : steps) {
     if (step.begin >= domain_end) return;
@@ -38,7 +38,8 @@ TexelRect general_footprint(const MapGrid& grid, const LightSample& sample, cons
   double x0 = kMost, y0 = kMost, x1 = -kMost, y1 = -kMost;
   for (const std::int32_t j : {rays.y0, rays.y1 - 1}) {
     for (const std::int32_t i : {rays.x0, rays.x1 - 1}) {
-      const RayPath path = make_ray_path(grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+      const RayPath path =
+          make_ray_path(grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
       for (const double w : {path.w_begin, path.w_end}) {
         const double x = static_cast<double>(path.base[0]) + path.fraction[0] + path.slope[0] * w;
         const double y = static_cast<double>(path.base[1]) + path.fraction[1] + path.slope[1] * w;
@@ -60,7 +61,8 @@ void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, con
   std::uint32_t texel = 0;
   for (std::int32_t j = rect.y0; j < rect.y1; ++j) {
     for (std::int32_t i = rect.x0; i < rect.x1; ++i, ++texel) {
-      const RayPath path = make_ray_path(grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+      const RayPath path =
+          make_ray_path(grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
       list_walk_steps(path, walk, steps);
       walk_ray(path, steps, map, texel, domain_ends[texel], log);
     }

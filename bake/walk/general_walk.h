@@ -13,7 +13,8 @@
 namespace pdsm {
 
 /// The map texels that the rays of `rays` (texels of the PDSM) need of the map of `sample`.
-[[nodiscard]] TexelRect general_footprint(const MapGrid& grid, const LightSample& sample, const TexelRect& rays);
+[[nodiscard]] TexelRect general_footprint(const MapGrid& grid, const LightSample& sample,
+                                          const TexelRect& rays);
 
 /// Appends the events of all rays of the block at `rect` to `log`. `domain_ends`: one value a texel of the
 /// block, row by row. `map` covers general_footprint(). `steps` is room to work in.

@@ -29,12 +29,12 @@ struct GridRatio {
 }
 
 struct MapGrid {
-  std::array<double, 2> origin{};   ///< slope at the window's lower corner
-  std::array<double, 2> pitch{};    ///< slope per map texel
+  std::array<double, 2> origin{};  ///< slope at the window's lower corner
+  std::array<double, 2> pitch{};   ///< slope per map texel
   std::array<GridRatio, 2> ratio{};
   std::array<std::uint32_t, 2> texels{};  ///< PDSM texels
   double near_depth = 0, far_depth = 0;
-  double focus_depth = 0;           ///< F: 1/F = (1/near + 1/far) / 2 halves the margins
+  double focus_depth = 0;  ///< F: 1/F = (1/near + 1/far) / 2 halves the margins
 
   /// Slope of PDSM texel centre `index` along `axis`.
   [[nodiscard]] double center_slope(int axis, std::uint32_t index) const {
@@ -43,7 +43,8 @@ struct MapGrid {
   }
 };
 
-[[nodiscard]] inline MapGrid make_map_grid(const View& view, std::uint32_t map_width, std::uint32_t map_height) {
+[[nodiscard]] inline MapGrid make_map_grid(const View& view, std::uint32_t map_width,
+                                           std::uint32_t map_height) {
   MapGrid grid;
   grid.texels = {view.width, view.height};
   grid.ratio = {round_ratio(map_width, view.width), round_ratio(map_height, view.height)};

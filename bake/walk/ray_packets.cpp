@@ -22,7 +22,8 @@ RayPacket make_packet(const MapGrid& grid, const TexelRect& rect, std::span<cons
   for (std::uint32_t lane = 0; lane < RayPacket::kLanes; ++lane) {
     const std::uint32_t i = i0 + lane * coarse_x;
     if (i >= static_cast<std::uint32_t>(rect.x1)) break;
-    const std::uint32_t texel = (j - static_cast<std::uint32_t>(rect.y0)) * width + (i - static_cast<std::uint32_t>(rect.x0));
+    const std::uint32_t texel =
+        (j - static_cast<std::uint32_t>(rect.y0)) * width + (i - static_cast<std::uint32_t>(rect.x0));
     packet.texel[lane] = static_cast<std::uint16_t>(texel);
     packet.domain_end[lane] = domain_ends[texel];
     packet.first_end = std::min(packet.first_end, domain_ends[texel]);
@@ -39,8 +40,8 @@ std::vector<RayPacket> make_ray_packets(const MapGrid& grid, const TexelRect& re
   std::vector<RayPacket> packets;
   for (auto j = static_cast<std::uint32_t>(rect.y0); j < static_cast<std::uint32_t>(rect.y1); ++j) {
     for (std::uint32_t phase = 0; phase < coarse; ++phase) {
-      for (std::uint32_t i = static_cast<std::uint32_t>(rect.x0) + phase; i < static_cast<std::uint32_t>(rect.x1);
-           i += coarse * RayPacket::kLanes) {
+      for (std::uint32_t i = static_cast<std::uint32_t>(rect.x0) + phase;
+           i < static_cast<std::uint32_t>(rect.x1); i += coarse * RayPacket::kLanes) {
         packets.push_back(make_packet(grid, rect, domain_ends, i, j));
       }
     }

@@ -9,7 +9,9 @@ namespace {
 /// Grid of the fractions. Texel indices below 2^28 leave sums of them exact in double.
 constexpr double kFractionSteps = 0x1.0p24;
 
-double round_fraction(double g) { return std::floor(g * kFractionSteps + 0.5) / kFractionSteps; }
+double round_fraction(double g) {
+  return std::floor(g * kFractionSteps + 0.5) / kFractionSteps;
+}
 
 /// g at w = 0 for a sample in the light's plane: whole texels of the ray's index, exactly, plus a constant
 /// of the sample and the ray's phase.

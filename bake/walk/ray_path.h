@@ -26,11 +26,11 @@
 namespace pdsm {
 
 struct RayPath {
-  std::array<std::int64_t, 2> base{};   ///< whole texels of g at w = 0
-  std::array<double, 2> fraction{};     ///< rest, multiple of 2^-24 in [0, 1)
-  std::array<double, 2> slope{};        ///< texels per w
-  double origin_z = 0;                  ///< s_z
-  double w_begin = 0, w_end = 0;        ///< at near and at far; w_begin > w_end > 0
+  std::array<std::int64_t, 2> base{};  ///< whole texels of g at w = 0
+  std::array<double, 2> fraction{};    ///< rest, multiple of 2^-24 in [0, 1)
+  std::array<double, 2> slope{};       ///< texels per w
+  double origin_z = 0;                 ///< s_z
+  double w_begin = 0, w_end = 0;       ///< at near and at far; w_begin > w_end > 0
 
   /// Depth at w, rounded once.
   [[nodiscard]] float depth(double w) const { return static_cast<float>(origin_z + 1 / w); }
@@ -41,6 +41,8 @@ struct RayPath {
                                     std::uint32_t j);
 
 /// Whether the shift law holds for this sample: it lies in the light's plane.
-[[nodiscard]] inline bool obeys_shift_law(const LightSample& sample) { return sample.position[2] == 0; }
+[[nodiscard]] inline bool obeys_shift_law(const LightSample& sample) {
+  return sample.position[2] == 0;
+}
 
 }  // namespace pdsm

@@ -13,7 +13,8 @@ struct Texel {
 };
 
 /// All w in (w_end, w_begin] at which the path crosses a border of its axis, with the axis.
-void collect_crossings(const RayPath& path, std::size_t axis, std::vector<std::pair<double, std::size_t>>& out) {
+void collect_crossings(const RayPath& path, std::size_t axis,
+                       std::vector<std::pair<double, std::size_t>>& out) {
   const double slope = path.slope[axis], fraction = path.fraction[axis];
   if (slope == 0) return;
   const double from = std::floor(fraction + slope * path.w_begin);
@@ -30,10 +31,12 @@ std::vector<Texel> convert_exact(const RayPath& path) {
   std::vector<std::pair<double, std::size_t>> crossings;
   collect_crossings(path, 0, crossings);
   collect_crossings(path, 1, crossings);
-  std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::sort(crossings.begin(), crossings.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
   std::int64_t at[2];
   for (std::size_t a = 0; a < 2; ++a) {
-    at[a] = path.base[a] + static_cast<std::int64_t>(std::floor(path.fraction[a] + path.slope[a] * path.w_begin));
+    at[a] =
+        path.base[a] + static_cast<std::int64_t>(std::floor(path.fraction[a] + path.slope[a] * path.w_begin));
   }
   std::vector<Texel> texels;
   double w = path.w_begin;
@@ -94,8 +97,10 @@ std::vector<std::pair<float, int>> accumulate_reference(const std::multiset<Refe
   int blocked = 0;
   for (const auto& [depth, change] : events) {
     blocked += change;
-    if (steps.empty() || steps.back().first != depth) steps.emplace_back(depth, blocked);
-    else steps.back().second = blocked;
+    if (steps.empty() || steps.back().first != depth)
+      steps.emplace_back(depth, blocked);
+    else
+      steps.back().second = blocked;
   }
   return steps;
 }

@@ -25,6 +25,7 @@ void insert_reference_events(const RayPath& path, Walk walk, const MapDepth& map
                              std::multiset<ReferenceEvent>& events);
 
 /// V = blocked / N just behind each depth, from ordered events.
-[[nodiscard]] std::vector<std::pair<float, int>> accumulate_reference(const std::multiset<ReferenceEvent>& events);
+[[nodiscard]] std::vector<std::pair<float, int>> accumulate_reference(
+    const std::multiset<ReferenceEvent>& events);
 
 }  // namespace pdsm

@@ -60,7 +60,8 @@ void ShiftWalk::want_packets(const TexelRect& rays, PacketMask& mask) const {
     const auto y0 = static_cast<std::int32_t>(map_texel(ratio_[1], rays.y0) + phase.base_y);
     const auto x1 = static_cast<std::int32_t>(map_texel(ratio_[0], rays.x1 - 1) + phase.base_x + 1);
     const auto y1 = static_cast<std::int32_t>(map_texel(ratio_[1], rays.y1 - 1) + phase.base_y + 1);
-    for (const WalkStep& step : phase.steps) mask.want({x0 + step.dx, y0 + step.dy, x1 + step.dx, y1 + step.dy});
+    for (const WalkStep& step : phase.steps)
+      mask.want({x0 + step.dx, y0 + step.dy, x1 + step.dx, y1 + step.dy});
   }
 }
 
@@ -73,7 +74,8 @@ void ShiftWalk::bind(const SampleMap& map) {
     phase.table.end.resize(count);
     for (std::size_t n = 0; n < count; ++n) {
       const WalkStep& step = phase.steps[n];
-      const std::int64_t x = phase.base_x + step.dx - map.rect().x0, y = phase.base_y + step.dy - map.rect().y0;
+      const std::int64_t x = phase.base_x + step.dx - map.rect().x0,
+                         y = phase.base_y + step.dy - map.rect().y0;
       const std::int64_t column = floor_div(x, interleave);
       const std::int64_t offset = y * map.pitch() + (x - column * interleave) * map.plane() + column;
       phase.table.offset[n] = static_cast<std::int32_t>(offset);

@@ -15,7 +15,9 @@ struct AxisCursor {
   double leave_w;
 
   AxisCursor(const RayPath& path, std::size_t axis)
-      : fraction(path.fraction[axis]), slope(path.slope[axis]), w_begin(path.w_begin),
+      : fraction(path.fraction[axis]),
+        slope(path.slope[axis]),
+        w_begin(path.w_begin),
         texel(static_cast<std::int32_t>(std::floor(fraction + slope * path.w_begin))) {
     find_leave();
   }
@@ -77,8 +79,10 @@ void list_midpoint(const RayPath& path, std::vector<WalkStep>& steps) {
 
 void list_walk_steps(const RayPath& path, Walk walk, std::vector<WalkStep>& steps) {
   steps.clear();
-  if (walk == Walk::exact) list_exact(path, steps);
-  else list_midpoint(path, steps);
+  if (walk == Walk::exact)
+    list_exact(path, steps);
+  else
+    list_midpoint(path, steps);
 }
 
 }  // namespace pdsm

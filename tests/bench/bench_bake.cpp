@@ -43,8 +43,10 @@ void trace_alone(const BakeJob& job, const LightSample& sample) {
         packet.ray.org_x[lane] = static_cast<float>(sample.position[0]);
         packet.ray.org_y[lane] = static_cast<float>(sample.position[1]);
         packet.ray.org_z[lane] = 0;
-        packet.ray.dir_x[lane] = static_cast<float>(job.grid.center_slope(0, x + lane % 4) - sample.position[0] / job.grid.focus_depth);
-        packet.ray.dir_y[lane] = static_cast<float>(job.grid.center_slope(1, y + lane / 4) - sample.position[1] / job.grid.focus_depth);
+        packet.ray.dir_x[lane] = static_cast<float>(job.grid.center_slope(0, x + lane % 4) -
+                                                    sample.position[0] / job.grid.focus_depth);
+        packet.ray.dir_y[lane] = static_cast<float>(job.grid.center_slope(1, y + lane / 4) -
+                                                    sample.position[1] / job.grid.focus_depth);
         packet.ray.dir_z[lane] = 1;
         packet.ray.tnear[lane] = 0;
         packet.ray.tfar[lane] = 1e30F;
@@ -60,7 +62,7 @@ void trace_alone(const BakeJob& job, const LightSample& sample) {
 
 double time_trace(const BakeJob& job) {
   const double start = omp_get_wtime();
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(job.options.threads))
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(job.options.threads))
   for (std::size_t n = 0; n < job.samples.size(); ++n) trace_alone(job, job.samples[n]);
   return omp_get_wtime() - start;
 }
@@ -68,7 +70,8 @@ double time_trace(const BakeJob& job) {
 /// Algorithm 3.1: all maps first, then texel by texel. The maps' tracing counts, the fit does not.
 double time_plain(const BakeJob& job, std::uint64_t& events) {
   const double start = omp_get_wtime();
-  const auto width = static_cast<std::int32_t>(job.grid.texels[0]), height = static_cast<std::int32_t>(job.grid.texels[1]);
+  const auto width = static_cast<std::int32_t>(job.grid.texels[0]),
+             height = static_cast<std::int32_t>(job.grid.texels[1]);
   std::vector<std::multiset<ReferenceEvent>> functions(std::size_t{job.grid.texels[0]} * job.grid.texels[1]);
   const MapBias bias{job.bias, {0.5, 0.5}};
   for (const LightSample& sample : job.samples) {
@@ -77,12 +80,14 @@ double time_plain(const BakeJob& job, std::uint64_t& events) {
     map.reset(general_footprint(job.grid, sample, {0, 0, width, height}), job.grid.ratio[0].fine);
     trace_sample_map(*job.embree, job.grid, sample, bias, nullptr, map, statistics);
     const MapDepth depth = [&](std::int64_t x, std::int64_t y) { return map.at(x, y); };
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(job.options.threads))
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(job.options.threads))
     for (std::int32_t j = 0; j < height; ++j) {
       for (std::int32_t i = 0; i < width; ++i) {
-        const RayPath path = make_ray_path(job.grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-        insert_reference_events(path, job.options.walk, depth, static_cast<float>(job.grid.far_depth),
-                                functions[static_cast<std::size_t>(j) * job.grid.texels[0] + static_cast<std::size_t>(i)]);
+        const RayPath path =
+            make_ray_path(job.grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+        insert_reference_events(
+            path, job.options.walk, depth, static_cast<float>(job.grid.far_depth),
+            functions[static_cast<std::size_t>(j) * job.grid.texels[0] + static_cast<std::size_t>(i)]);
       }
     }
   }
@@ -111,10 +116,12 @@ void run(int argc, char** argv) {
     baked.push_back(report.seconds_total - report.seconds_bvh);
     ratio.push_back(baked.back() / trace.back());
   }
-  fmt::print("trace_seconds {:.3f}\nbake_seconds {:.3f}\nbake_over_trace {:.3f}\n", median(trace), median(baked), median(ratio));
-  fmt::print("rays {}\nevents {}\npieces {}\nblock_bytes {}\n", report.rays, report.events, report.pieces, bytes);
-  fmt::print("share trace {:.2f} walk {:.2f} accumulate {:.2f} fit {:.2f}\n", report.seconds_trace, report.seconds_walk,
-             report.seconds_accumulate, report.seconds_fit);
+  fmt::print("trace_seconds {:.3f}\nbake_seconds {:.3f}\nbake_over_trace {:.3f}\n", median(trace),
+             median(baked), median(ratio));
+  fmt::print("rays {}\nevents {}\npieces {}\nblock_bytes {}\n", report.rays, report.events, report.pieces,
+             bytes);
+  fmt::print("share trace {:.2f} walk {:.2f} accumulate {:.2f} fit {:.2f}\n", report.seconds_trace,
+             report.seconds_walk, report.seconds_accumulate, report.seconds_fit);
   if (argc > 5 && std::strcmp(argv[5], "plain") == 0) {
     std::uint64_t events = 0;
     const double plain = time_plain(job, events);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,7 +102,7 @@ TEST_F(PlyTest, PolygonsKeepShapeAndWinding) {
       double xyz[3] = {0, 0, 0};
       xyz[(axis + 1) % 3] = p[0];
       xyz[(axis + 2) % 3] = p[1];
-      for (const double v : xyz) body += std::to_string(v) + " ";
+      for (const double v : xyz) body += fmt::format("{} ", v);
     }
     for (const bool back : {false, true}) {
       const auto mesh = import(kHead + "element vertex 4\n" + kVertex + "element face 1\n" + kFace +
@@ -128,9 +129,8 @@ TEST_F(PlyTest, PolygonOfManyCornersIsCoveredOnce) {
   double expected = 0;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * std::numbers::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.25;
-    body +=
-        std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
-    face += " " + std::to_string(i);
+    body += fmt::format("{} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
+    face += fmt::format(" {}", i);
     expected += 0.25 * std::sin(2 * std::numbers::pi / corners) / 2;
   }
   const auto mesh = import(kHead + "element vertex 14\n" + kVertex + "element face 1\n" + kFace +

@@ -47,27 +47,27 @@ struct BakeOptions {
   Receivers receivers = Receivers::volume;
   PointSet points = PointSet::lattice;
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that baking may take beyond scene and BVH
-  std::uint32_t threads = 0;                    ///< 0: all processors
+  std::uint32_t threads = 0;                      ///< 0: all processors
   std::uint64_t seed = 0;
   /// Replaces `samples`, `points` and `seed` when not empty: any points in light space, also out of its
   /// plane (z < near); equal weights.
   std::vector<LightSample> light_samples;
-  std::string isa;                              ///< Embree's: sse2, sse4.2, avx, avx2, avx512; empty: best
-  std::uint32_t tile = 0;                       ///< edge of a tile in texels, multiple of 64; 0: by cost
+  std::string isa;         ///< Embree's: sse2, sse4.2, avx, avx2, avx512; empty: best
+  std::uint32_t tile = 0;  ///< edge of a tile in texels, multiple of 64; 0: by cost
 };
 
 /// How far a bake is. Told from the thread that called bake(), a few times a second.
 struct BakeProgress {
-  std::string step;             ///< "bvh", "trace", "fit", ...
-  double done = 0;              ///< 0..1 of the whole bake
-  double rays_per_second = 0;   ///< so far; 0 while unknown
+  std::string step;            ///< "bvh", "trace", "fit", ...
+  double done = 0;             ///< 0..1 of the whole bake
+  double rays_per_second = 0;  ///< so far; 0 while unknown
 };
 
 /// Reason why something was modelled or left out.
 struct ModelledFeature {
-  std::string feature;   ///< "opaque casters", "volumes", "general scan conversion", ...
+  std::string feature;  ///< "opaque casters", "volumes", "general scan conversion", ...
   bool modelled = false;
-  std::string reason;    ///< one clause
+  std::string reason;  ///< one clause
 };
 
 /// What a bake did. Seconds are wall-clock; walk and accumulate are shares of the thread time.

@@ -52,8 +52,8 @@ struct Light {
   glm::dvec3 position{0};          ///< centre, metres
   glm::dvec3 direction{0, -1, 0};  ///< any length > 0
   std::optional<glm::dvec3> up;    ///< default [0,1,0], or [0,0,1] within 1 degree of the direction
-  std::optional<std::array<double, 4>> window;  ///< [x0,y0,x1,y1], tangents; default fitted
-  std::optional<double> near_depth, far_depth;  ///< metres; default fitted
+  std::optional<std::array<double, 4>> window;             ///< [x0,y0,x1,y1], tangents; default fitted
+  std::optional<double> near_depth, far_depth;             ///< metres; default fitted
   std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
   std::optional<std::uint32_t> samples;
 };
