@@ -55,7 +55,7 @@ void add_resource_options(CLI::App& sub, BakeCommand& command) {
   sub.add_option_function<std::string>(
          "--tile",
          [&options](const std::string& text) {
-           options.tile = static_cast<std::uint32_t>(parse_count("--tile", text, 0, kMostTexels));
+           options.tile = static_cast<std::uint32_t>(parse_count("--tile", text, kBlockSize, kMostTexels));
            if (options.tile % kBlockSize != 0) refuse_value("--tile", "a multiple of 64", text);
          },
          "Edge of a tile in texels, a multiple of 64; default by cost")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <array>
 #include <memory>
 #include <optional>
@@ -48,6 +50,11 @@ std::vector<PictureLight> picture_lights(const Scene& scene, const std::vector<P
   std::vector<PictureLight> lights;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const Light& light = light_of_map(scene, maps[i], i, command.files[i]);
+    const auto same = [&light](const PictureLight& other) { return other.light == &light; };
+    if (std::any_of(lights.begin(), lights.end(), same)) {
+      throw Error(Failure::usage, command.files[i], "is a second map of light '" + light.name + "'");
+    }
+    warn_if_changed(scene, maps[i], command.files[i]);
     lights.push_back({&light, &maps[i], maps[i].views.front().near_depth});
   }
   if (!maps.empty()) return lights;

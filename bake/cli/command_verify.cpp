@@ -62,6 +62,7 @@ int run_verify(const VerifyCommand& command) {
   const PenumbraMap map = read_map(command.map);
   const Scene scene = read_scene(command.scene);
   const Light& light = light_of_map(scene, map, 0, command.map);
+  warn_if_changed(scene, map, command.map);
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);
   const VerifyResult result = verify(map, scene, light, options);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "cli/streams.h"
 #include "pdsm/format/atomic_file.h"
 #include "pdsm/format/error.h"
 
@@ -24,7 +28,12 @@ void append_strings(const nlohmann::json& json, std::vector<std::string>& string
 /// Files that a JSON file names, whatever its schema; none when it is no JSON.
 std::vector<fs::path> named_files(const fs::path& json_file) {
   std::ifstream stream(json_file, std::ios::binary);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false, true);
+  // What is nested deeper than any scene's file names is left out before it can overflow the stack.
+  constexpr int kDeepest = 64;
+  const auto keep = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    return depth <= kDeepest;
+  };
+  const nlohmann::json json = nlohmann::json::parse(stream, keep, false, true);
   std::vector<std::string> strings;
   append_strings(json, strings);
   std::vector<fs::path> files;
@@ -70,8 +79,10 @@ std::string light_name_of(const PenumbraMap& map) {
   return metadata[name].get<std::string>();
 }
 
-const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_t index,
-                          const std::string& map_name) {
+namespace {
+
+const Light& named_light(const Scene& scene, const PenumbraMap& map, std::size_t index,
+                         const std::string& map_name) {
   const std::string name = light_name_of(map);
   for (const Light& light : scene.lights) {
     if (light.name == name) return light;
@@ -83,6 +94,37 @@ const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_
     throw Error(Failure::input, map_name + ":light", "names no light, and the scene has no further one");
   }
   return scene.lights[index];
+}
+
+/// Whether two frames differ by no more than what rounding makes of the same numbers.
+bool same_frame(const RigidTransform& a, const RigidTransform& b) {
+  constexpr double kRounding = 1e-9;
+  const auto near = [](double x, double y) {
+    return std::abs(x - y) <= kRounding * std::max({1.0, std::abs(x), std::abs(y)});
+  };
+  return std::equal(a.rotation.begin(), a.rotation.end(), b.rotation.begin(), near) &&
+         std::equal(a.translation.begin(), a.translation.end(), b.translation.begin(), near);
+}
+
+}  // namespace
+
+const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_t index,
+                          const std::string& map_name) {
+  const Light& light = named_light(scene, map, index, map_name);
+  if (!same_frame(map.views.front().world_to_view, light_frame(light))) {
+    throw Error(Failure::input, map_name + ":light",
+                "was baked for another position or direction of light '" + light.name + "'");
+  }
+  return light;
+}
+
+void warn_if_changed(const Scene& scene, const PenumbraMap& map, const std::string& map_name) {
+  const nlohmann::ordered_json metadata = metadata_of(map);
+  const auto hash = metadata.find("input_hash");
+  if (hash == metadata.end() || !hash->is_string()) return;
+  if (*hash != fmt::format("{:016x}", scene.content_hash)) {
+    write_warning(map_name + ": the scene has changed since the bake");
+  }
 }
 
 std::vector<fs::path> scene_inputs(const fs::path& scene_file) {

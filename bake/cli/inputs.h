@@ -28,9 +28,12 @@ namespace pdsm {
 [[nodiscard]] std::string light_name_of(const PenumbraMap& map);
 
 /// The scene's light for map number `index` of a command line: by the map's light name, else by order.
-/// Throws Error (input) when there is none.
+/// Throws Error (input) when there is none, or when it stands elsewhere now than when the map was baked.
 [[nodiscard]] const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_t index,
                                         const std::string& map_name);
+
+/// Warns when the map's metadata tells of other inputs than `scene` was read from.
+void warn_if_changed(const Scene& scene, const PenumbraMap& map, const std::string& map_name);
 
 /// The scene file and the files that it names.
 [[nodiscard]] std::vector<std::filesystem::path> scene_inputs(const std::filesystem::path& scene_file);

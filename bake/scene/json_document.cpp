@@ -13,6 +13,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Levels of nesting that a document may have; ours have four.
+constexpr std::size_t kDeepest = 64;
+
 /// What the library says without its own error number and position.
 std::string plain_reason(const std::string& what) {
   std::string text = what;
@@ -91,6 +94,7 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
 
   bool open(json&& value) {
     std::string path = next_path();
+    if (open_.size() == kDeepest) throw Error(Failure::input, name_ + ":" + path, "is nested too deeply");
     open_.push_back({place(std::move(value)), std::move(path)});
     return true;
   }

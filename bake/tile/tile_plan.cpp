@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tile/tile_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "events/event_log.h"
 #include "pdsm/format/error.h"
@@ -23,6 +26,8 @@ constexpr double kFitBytesPerEvent = 8;
 /// Tasks per thread below which a tile's samples are cut into strips.
 constexpr std::uint32_t kLeastTasksPerThread = 4;
 constexpr std::uint32_t kLargestTile = 4096;
+/// Map texels that a walk may cross along one axis; the dragon's cross 50.
+constexpr double kLongestWalk = 1 << 16;
 
 std::uint32_t round_up_to_block(std::uint32_t texels) {
   return (texels + kBlockSize - 1) / kBlockSize * kBlockSize;
@@ -84,6 +89,22 @@ bool fits(const PlanInput& input, const TilePlan& plan) {
          static_cast<double>(plan.event_limit);
 }
 
+/// Walks grow as 1 / near; before they are listed, their length is told from the light's size.
+void check_walk_length(const PlanInput& input) {
+  const double spread = 1 / input.grid.near_depth - 1 / input.grid.far_depth;
+  double longest = 0;
+  for (const LightSample& sample : input.samples) {
+    for (std::size_t a = 0; a < 2; ++a) {
+      longest = std::max(longest, std::abs(sample.position[a]) * spread / input.grid.pitch[a]);
+    }
+  }
+  if (longest <= kLongestWalk) return;
+  throw Error(Failure::resource, "--map-resolution",
+              "walks would cross " + std::to_string(static_cast<std::int64_t>(std::min(longest, 1e18))) +
+                  " map texels, as near is " + fmt::format("{:g}", input.grid.near_depth) +
+                  " m from the light: give a coarser map or a larger near");
+}
+
 }  // namespace
 
 TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk walk, const TexelRect& rays) {
@@ -94,6 +115,7 @@ TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk 
 }
 
 TilePlan plan_tiles(const PlanInput& input) {
+  check_walk_length(input);
   const std::uint32_t whole = round_up_to_block(std::max(input.grid.texels[0], input.grid.texels[1]));
   if (input.edge != 0) return make_plan(input, std::min(input.edge, whole));
   for (std::uint32_t edge = std::min(whole, kLargestTile); edge > kBlockSize;
@@ -105,7 +127,8 @@ TilePlan plan_tiles(const PlanInput& input) {
   if (plan.event_limit == 0) {
     const std::uint64_t least = (plan.map_bytes + plan.output_bytes) >> 20;
     throw Error(Failure::resource, "--memory",
-                "this map needs more than " + std::to_string(least) + "M; fewer threads need less");
+                "this map needs more than " + std::to_string(least) +
+                    "M: less with fewer threads, a coarser map, or casters farther from the light");
   }
   return plan;
 }
