@@ -248,5 +248,22 @@ TEST_F(BakeCommand, ResultsThatCanNotBeToldFail) {
   EXPECT_EQ(run({"check", "map.pdsm"}).exit_code, 0);
 }
 
+TEST_F(BakeCommand, DeepNestingIsBadInput) {
+  // Deep enough to overflow a stack, were it followed.
+  write_file("deep.scene.json", std::string(200'000, '['));
+  expect_exit(run({"bake", "deep.scene.json", "-o", "x.pdsm"}), 3);
+  expect_exit(run({"render", "deep.scene.json", "-o", "x.png", "--truth"}), 3);
+}
+
+TEST_F(BakeCommand, EndlessWalksAreRefused) {
+  std::string scene = contents("one.scene.json");
+  const std::string direction = "\"direction\"";
+  scene.replace(scene.find(direction), direction.size(), "\"near\": 1e-9, " + direction);
+  write_file("near.scene.json", scene);
+  const Outcome outcome = run({"bake", "near.scene.json", "-o", "x.pdsm"});
+  expect_exit(outcome, 4);
+  EXPECT_NE(outcome.err.find("1e-09"), std::string::npos) << outcome.err;
+}
+
 }  // namespace
 }  // namespace pdsm

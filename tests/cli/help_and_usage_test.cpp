@@ -82,6 +82,7 @@ TEST_F(Usage, CountsAreStrict) {
     }
   }
   expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--tile", "65"}), "--tile", "65");
+  expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--tile", "0"}), "--tile", "0");
   expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--threads", "1000000"}), "--threads", "");
   EXPECT_FALSE(exists("x.pdsm"));
 }

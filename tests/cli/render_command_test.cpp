@@ -66,6 +66,14 @@ TEST_F(RenderCommand, TakesSeveralMaps) {
   EXPECT_FALSE(contents("one.png") == contents("both.png"));
 }
 
+TEST_F(RenderCommand, ALightHasOneMap) {
+  bake_small("again.pdsm");
+  bake_small("map.pdsm");
+  expect_exit(run({"render", "map.pdsm", "again.pdsm", "one.scene.json", "-o", "x.png", "--size", "16x16"}),
+              2);
+  EXPECT_FALSE(exists("x.png"));
+}
+
 TEST_F(RenderCommand, Refuses) {
   expect_exit(render({"map.pdsm", "one.scene.json", "-o", "a.jpg"}), 2);
   expect_exit(render({"map.pdsm", "one.scene.json"}), 2);

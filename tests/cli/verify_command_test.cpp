@@ -55,6 +55,33 @@ TEST_F(VerifyCommand, TheMapNamesItsLight) {
   EXPECT_NE(missing.err.find("'key'"), std::string::npos) << missing.err;
 }
 
+TEST_F(VerifyCommand, AMapOfALightThatStandsElsewhereIsRefused) {
+  const std::string scene = contents("one.scene.json");
+  const std::string direction = "\"direction\"", turned = "\"up\": [1, 0, 0], \"direction\"";
+  std::string other = scene;
+  other.replace(other.find(direction), direction.size(), turned);
+  write_file("turned.scene.json", other);
+  const Outcome outcome = run({"verify", "map.pdsm", "turned.scene.json"});
+  expect_exit(outcome, 3);
+  EXPECT_NE(outcome.err.find("map.pdsm:light: "), std::string::npos) << outcome.err;
+}
+
+TEST_F(VerifyCommand, WarnsWhenTheSceneHasChanged) {
+  EXPECT_EQ(verify({}).err, "");
+  write_file("one.scene.json", contents("one.scene.json") + "\n");
+  const Outcome outcome = verify({});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("the scene has changed"), std::string::npos) << outcome.err;
+}
+
+TEST_F(VerifyCommand, AMapForSurfacesIsMeasuredOnSurfaces) {
+  bake_small("surfaces.pdsm", {"--receivers", "surfaces"});
+  const Outcome outcome =
+      run({"verify", "surfaces.pdsm", "one.scene.json", "--points", "400", "--samples", "256"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("(400 on surfaces"), std::string::npos) << outcome.out;
+}
+
 TEST_F(VerifyCommand, BadFilesAreBadInput) {
   expect_exit(run({"verify", "plate.obj", "one.scene.json"}), 3);
   expect_exit(run({"verify", "map.pdsm", "plate.obj"}), 3);
