@@ -38,8 +38,12 @@ double share_of(const TexelRect& tile, const MapGrid& grid) {
 /// Bakes all tiles, halving those whose events take too much room.
 class TileRun {
  public:
-  TileRun(const BakeJob& job, const TileInput& input, const BlockSink& sink, const BakeCallbacks& callbacks)
-      : job_(job), input_(input), sink_(sink), callbacks_(callbacks), start_(omp_get_wtime()) {}
+  TileRun(const BakeJob& job, const TileInput& input, BlockSink sink, BakeCallbacks callbacks)
+      : job_(job),
+        input_(input),
+        sink_(std::move(sink)),
+        callbacks_(std::move(callbacks)),
+        start_(omp_get_wtime()) {}
 
   TileStatistics run() {
     std::deque<TexelRect> todo(job_.plan.tiles.begin(), job_.plan.tiles.end());
@@ -80,8 +84,8 @@ class TileRun {
 
   const BakeJob& job_;
   const TileInput& input_;
-  const BlockSink& sink_;
-  const BakeCallbacks& callbacks_;
+  const BlockSink sink_;
+  const BakeCallbacks callbacks_;
   TileStatistics statistics_;
   double start_, last_told_ = 0, done_ = 0;
   std::uint64_t tiles_ = 0;
