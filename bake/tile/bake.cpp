@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 
+#include "events/event_log.h"
 #include "pdsm/format/error.h"
 #include "tile/bake_job.h"
 
@@ -19,8 +20,7 @@ constexpr std::uint32_t kTrialSamples = 4;
 /// Halves a tile along its longer side, at a block border. Empty when it is one block already.
 std::vector<TexelRect> split_tile(const TexelRect& tile) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
-  const std::int32_t across = (tile.x1 - tile.x0 + edge - 1) / edge,
-                     up = (tile.y1 - tile.y0 + edge - 1) / edge;
+  const std::int32_t across = blocks_along(tile.x1 - tile.x0), up = blocks_along(tile.y1 - tile.y0);
   if (across == 1 && up == 1) return {};
   TexelRect first = tile, second = tile;
   if (across >= up)
@@ -127,7 +127,7 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.samples = job.options.samples;
   report.tile = job.plan.edge;
   report.epsilon = job.options.epsilon;
-  report.depth_tolerance = job.depth_tolerance;
+  report.depth_tolerance = job.rules.tolerance;
   report.bias = job.bias;
   report.mean_slope_bias = done.rays == 0 ? 0 : done.slope_bias_sum / static_cast<double>(done.rays);
   report.max_slope_bias = done.slope_bias_max;
@@ -183,7 +183,8 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   prediction.rays = static_cast<std::uint64_t>(static_cast<double>(done.rays) * scale);
   prediction.events = static_cast<std::uint64_t>(static_cast<double>(done.events) * scale);
   prediction.seconds = job.seconds_bvh + done.prepare + per_sample * scale;
-  const std::uint64_t tile_events = 8 * prediction.events / std::max<std::uint64_t>(1, job.plan.tiles.size());
+  const std::uint64_t tile_events =
+      sizeof(PackedEvent) * prediction.events / std::max<std::uint64_t>(1, job.plan.tiles.size());
   prediction.memory_bytes =
       job.plan.map_bytes + job.plan.output_bytes + std::min(job.plan.event_limit, tile_events);
   prediction.tile = job.plan.edge;

@@ -21,8 +21,8 @@ constexpr double kDepthRounding = 0x1.0p-20;
 constexpr double kBiasFootprints = 0.25;
 /// The default depth tolerance as a share of the bias.
 constexpr double kToleranceShare = 0.25;
-/// Geometry up to this share of near is the emitter's, and near is at least this share of far.
-constexpr double kEmitterShare = 1e-4;
+/// A fitted near is at least this share of far (view_fit.h).
+constexpr double kNearFloor = 1e-4;
 constexpr double kClipSlack = 1e-5;
 constexpr std::uint32_t kMostSamples = 65536, kMostTexels = 16384;
 
@@ -56,9 +56,7 @@ BakeOptions fill_in(BakeOptions o) {
   o.isa = choose_isa(o.isa);
   if (!o.light_samples.empty()) o.samples = static_cast<std::uint32_t>(o.light_samples.size());
   // More threads than tasks would only take memory.
-  const std::uint32_t blocks =
-      ((o.width + kBlockSize - 1) / kBlockSize) * ((o.height + kBlockSize - 1) / kBlockSize);
-  o.threads = std::min(o.threads, std::max(o.samples, blocks));
+  o.threads = std::min(o.threads, std::max(o.samples, blocks_along(o.width) * blocks_along(o.height)));
   return o;
 }
 
@@ -82,7 +80,7 @@ void check_samples(const std::vector<LightSample>& samples, const View& view) {
 double caster_clip_depth(const FittedView& fitted, bool own_samples) {
   // Samples that the caller brings may lie outside the light's shape, and so outside the hull.
   if (own_samples) return kEmitterShare * fitted.view.near_depth;
-  const double near = fitted.view.near_depth, floor = kEmitterShare * fitted.view.far_depth;
+  const double near = fitted.view.near_depth, floor = kNearFloor * fitted.view.far_depth;
   return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack)
                                                                : kEmitterShare * near;
 }
@@ -105,7 +103,6 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
   rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
                          options.depth_tolerance.value_or(kToleranceShare * bias));
-  depth_tolerance = rules.tolerance;
   plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile});
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
@@ -118,7 +115,7 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
   TileInput input{*embree,
                   grid,
                   {},
-                  true,
+                  shift_law(),
                   options.walk,
                   options.receivers,
                   bias,
@@ -129,12 +126,15 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   caster_clip_depth(fitted, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth};
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
-  input.shift_law = std::all_of(samples.begin(), samples.end(), obeys_shift_law);
   return input;
 }
 
+bool BakeJob::shift_law() const {
+  return std::all_of(samples.begin(), samples.end(), obeys_shift_law);
+}
+
 std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
-  const bool planar = std::all_of(job.samples.begin(), job.samples.end(), obeys_shift_law);
+  const bool planar = job.shift_law();
   const FittedView& fitted = job.fitted;
   const auto bits = [](std::uint32_t n) { return std::to_string(n) + " bits"; };
   const VertexCoding& coding = job.rules.coding;

@@ -17,11 +17,14 @@ class BakeJob {
   /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
   [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;
 
+  /// Whether all samples lie in the light's plane, so that one walk serves all rays of each.
+  [[nodiscard]] bool shift_law() const;
+
   BakeOptions options;  ///< with all defaults filled in
   FittedView fitted;
   std::vector<LightSample> samples;
   MapGrid grid;
-  double bias = 0, depth_tolerance = 0;
+  double bias = 0;
   FitRules rules;
   TilePlan plan;
   LightSpaceScene light_space;

@@ -48,7 +48,7 @@ struct WalkThread {
 
 std::vector<TileBlock> cut_blocks(const TileInput& input, const TexelRect& tile) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
-  const std::uint32_t across = (input.grid.texels[0] + kBlockSize - 1) / kBlockSize;
+  const std::uint32_t across = blocks_along(input.grid.texels[0]);
   std::vector<TileBlock> blocks;
   for (std::int32_t y = tile.y0; y < tile.y1; y += edge) {
     for (std::int32_t x = tile.x0; x < tile.x1; x += edge) {
@@ -59,10 +59,6 @@ std::vector<TileBlock> cut_blocks(const TileInput& input, const TexelRect& tile)
     }
   }
   return blocks;
-}
-
-std::size_t texel_count(const TexelRect& rect) {
-  return static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0);
 }
 
 /// Depth code of a band's border, rounded to the code below.
@@ -92,7 +88,7 @@ std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const
 }
 
 void prepare_block(const TileInput& input, TileBlock& block) {
-  block.domain_ends.assign(texel_count(block.rect), std::numeric_limits<float>::infinity());
+  block.domain_ends.assign(block.rect.area(), std::numeric_limits<float>::infinity());
   if (input.receivers != Receivers::all)
     find_domain_ends(input.scene, input.grid, block.rect, block.domain_ends);
   if (input.receivers == Receivers::surfaces) block.bands = find_code_bands(input, block.rect);
@@ -139,7 +135,7 @@ MapBias sample_bias(const TileInput& input, const LightSample& sample) {
 /// The rows of a tile that strip `n` of `count` covers, whole blocks.
 TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
-  const std::int64_t rows = (tile.y1 - tile.y0 + edge - 1) / edge;
+  const std::int64_t rows = blocks_along(tile.y1 - tile.y0);
   TexelRect strip = tile;
   strip.y0 = tile.y0 + static_cast<std::int32_t>(rows * n / count) * edge;
   strip.y1 = std::min(tile.y1, tile.y0 + static_cast<std::int32_t>(rows * (n + 1) / count) * edge);
@@ -226,7 +222,7 @@ void append_function(const VertexCoding& coding, const std::vector<FunctionVerte
 FunctionBlock fit_block(const TileInput& input, const TileBlock& block, std::span<const EventLog* const> logs,
                         FitThread& thread) {
   const double start = omp_get_wtime();
-  const auto texels = static_cast<std::uint32_t>(texel_count(block.rect));
+  const auto texels = static_cast<std::uint32_t>(block.rect.area());
   gather_events(logs, texels, thread.events);
   double accumulated = omp_get_wtime() - start;
   FunctionBlock functions;
@@ -312,7 +308,7 @@ class TileJob {
 
   [[nodiscard]] float domain_end(std::int32_t i, std::int32_t j) const {
     const auto edge = static_cast<std::int32_t>(kBlockSize);
-    const std::int32_t across = (tile_.x1 - tile_.x0 + edge - 1) / edge;
+    const std::int32_t across = blocks_along(tile_.x1 - tile_.x0);
     const TileBlock& block =
         blocks_[static_cast<std::size_t>((j - tile_.y0) / edge * across + (i - tile_.x0) / edge)];
     return block.domain_ends[static_cast<std::size_t>((j - block.rect.y0) * (block.rect.x1 - block.rect.x0) +

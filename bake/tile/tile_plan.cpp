@@ -30,7 +30,7 @@ constexpr std::uint32_t kLargestTile = 4096;
 constexpr double kLongestWalk = 1 << 16;
 
 std::uint32_t round_up_to_block(std::uint32_t texels) {
-  return (texels + kBlockSize - 1) / kBlockSize * kBlockSize;
+  return blocks_along(texels) * kBlockSize;
 }
 
 std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
@@ -46,10 +46,6 @@ std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
   return tiles;
 }
 
-std::uint64_t area(const TexelRect& rect) {
-  return static_cast<std::uint64_t>(rect.x1 - rect.x0) * static_cast<std::uint64_t>(rect.y1 - rect.y0);
-}
-
 TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   TilePlan plan;
   plan.edge = edge;
@@ -59,14 +55,13 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   double margin_factor = 0;
   for (const LightSample& sample : input.samples) {
     const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
-    largest = std::max(largest, SampleMap::bytes_for(footprint, input.grid.ratio[0].fine));
-    margin_factor +=
-        static_cast<double>(SampleMap::bytes_for(footprint, input.grid.ratio[0].fine) / sizeof(float)) /
-        static_cast<double>(area(first));
+    const std::uint64_t bytes = SampleMap::bytes_for(footprint, input.grid.ratio[0].fine);
+    largest = std::max(largest, bytes);
+    margin_factor += static_cast<double>(bytes / sizeof(float)) / static_cast<double>(first.area());
   }
   const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];
   plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
-  const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(area(first)));
+  const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(first.area()));
   const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
   plan.map_bytes = input.threads *
                    (largest + kThreadOverhead + static_cast<std::uint64_t>(kFitBytesPerEvent * block_events));
@@ -80,7 +75,7 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
 
 /// Whether a tile's expected events, and the pages that all threads have open, fit.
 bool fits(const PlanInput& input, const TilePlan& plan) {
-  const std::uint64_t texels = area(plan.tiles.front());
+  const std::uint64_t texels = plan.tiles.front().area();
   const double events =
       kExpectedEvents * static_cast<double>(texels) * static_cast<double>(input.samples.size());
   const std::uint64_t blocks = texels / (kBlockSize * kBlockSize) + 1;

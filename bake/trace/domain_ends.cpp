@@ -48,8 +48,7 @@ float end_depth(const EmbreeScene& scene, const MapGrid& grid, const RTCRayHit16
 
 void find_domain_ends(const EmbreeScene& scene, const MapGrid& grid, const TexelRect& rect,
                       std::span<float> ends) {
-  assert(ends.size() ==
-         static_cast<std::size_t>(rect.x1 - rect.x0) * static_cast<std::size_t>(rect.y1 - rect.y0));
+  assert(ends.size() == rect.area());
   ReceiverContext receiver;
   alignas(64) int valid[kPacketRays];
   RTCRayHit16 packet;

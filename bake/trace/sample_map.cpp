@@ -10,8 +10,6 @@ namespace {
 constexpr int kPacketRays = kPacketEdge * kPacketEdge;
 /// Lanes that a walk may load behind a row's last ray.
 constexpr std::size_t kLoadPadding = 16;
-/// Geometry up to this share of near never blocks: it is the emitter itself, or behind it.
-constexpr double kEmitterShare = 1e-4;
 
 std::int32_t floor_to(std::int32_t x, std::int32_t multiple) {
   const std::int32_t rest = x % multiple;

@@ -14,7 +14,19 @@ namespace pdsm {
 /// A rectangle of texels, half-open, in global coordinates of their grid.
 struct TexelRect {
   std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  [[nodiscard]] std::size_t area() const {
+    return static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0);
+  }
 };
+
+/// Blocks that this many texels along one axis lie in.
+[[nodiscard]] constexpr std::uint32_t blocks_along(std::uint32_t texels) {
+  return (texels + kBlockSize - 1) / kBlockSize;
+}
+[[nodiscard]] constexpr std::int32_t blocks_along(std::int32_t texels) {
+  return static_cast<std::int32_t>(blocks_along(static_cast<std::uint32_t>(texels)));
+}
 
 /// Edge of a ray packet in map texels; packets are aligned to the global map grid.
 inline constexpr std::int32_t kPacketEdge = 4;

@@ -73,7 +73,7 @@ std::vector<std::vector<DepthBand>> find_surface_bands(const EmbreeScene& scene,
                        std::min(rect.x1 + 1, static_cast<std::int32_t>(grid.texels[0])),
                        std::min(rect.y1 + 1, static_cast<std::int32_t>(grid.texels[1]))};
   const std::int32_t width = wide.x1 - wide.x0;
-  std::vector<Bands> of_ray(static_cast<std::size_t>(width) * static_cast<std::size_t>(wide.y1 - wide.y0));
+  std::vector<Bands> of_ray(wide.area());
   std::size_t next = 0;
   for (std::int32_t j = wide.y0; j < wide.y1; ++j) {
     for (std::int32_t i = wide.x0; i < wide.x1; ++i) {

@@ -28,6 +28,9 @@ struct GridRatio {
   return ratio >= 1 ? GridRatio{whole(ratio), 1} : GridRatio{1, whole(1 / ratio)};
 }
 
+/// Geometry up to this share of near is the emitter itself, or behind it, and never blocks.
+inline constexpr double kEmitterShare = 1e-4;
+
 struct MapGrid {
   std::array<double, 2> origin{};  ///< slope at the window's lower corner
   std::array<double, 2> pitch{};   ///< slope per map texel
