@@ -9,7 +9,7 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
 #include <cstring>
 #include <vector>
 
@@ -96,18 +96,30 @@ double time_plain(const BakeJob& job, std::uint64_t& events) {
   return omp_get_wtime() - start;
 }
 
+/// Argument `n` as a count; `otherwise` where it is not given.
+std::uint32_t count_argument(int argc, char** argv, int n, std::uint32_t otherwise) {
+  if (n >= argc) return otherwise;
+  std::uint32_t value = 0;
+  const char* end = argv[n] + std::strlen(argv[n]);
+  const auto [stop, fault] = std::from_chars(argv[n], end, value);
+  if (fault != std::errc() || stop != end || value == 0) {
+    throw Error(Failure::usage, argv[n], "is not a count of 1 or more");
+  }
+  return value;
+}
+
 void run(int argc, char** argv) {
   const Scene scene = read_scene(argv[1]);
   const Light& light = scene.lights.front();
-  const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 5;
+  const std::uint32_t runs = count_argument(argc, argv, 2, 5);
   BakeOptions options;
-  if (argc > 3) options.width = options.height = static_cast<std::uint32_t>(std::atoi(argv[3]));
-  if (argc > 4) options.samples = static_cast<std::uint32_t>(std::atoi(argv[4]));
+  options.width = options.height = count_argument(argc, argv, 3, options.width);
+  options.samples = count_argument(argc, argv, 4, options.samples);
   const BakeJob job(scene, light, options);
   std::vector<double> trace, baked, ratio;
   BakeReport report;
   std::size_t bytes = 0;
-  for (int n = 0; n < runs; ++n) {
+  for (std::uint32_t n = 0; n < runs; ++n) {
     trace.push_back(time_trace(job));
     const BakedMap map = bake(scene, light, options);
     report = map.report;
