@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "evaluate.h"
+#include "code_depth.h"
+#include "shader_functions.h"
 
 namespace pdsm {
 namespace {
@@ -156,37 +157,43 @@ TexelAddress address(const ViewLookUp& view, const LayerImage& layer, std::uint3
   return {&block, y % kBlockSize * block.width + x % kBlockSize};
 }
 
+/// The texels that a filter reads at a place, and their weights.
+struct TexelQuad {
+  shader::PlainFunctions::PdsmBetween x, y;
+};
+
+TexelQuad texels_of(const Place& place, Filter filter) {
+  const View& view = place.view->view;
+  shader::PlainFunctions text;
+  if (filter == Filter::bilinear)
+    return {text.pdsm_between(place.u, view.width), text.pdsm_between(place.v, view.height)};
+  const std::uint32_t x = text.pdsm_holding(place.u, view.width), y = text.pdsm_holding(place.v, view.height);
+  return {{x, x, 0}, {y, y, 0}};
+}
+
 /// The function of one texel at z, as a real-valued code.
 template <typename Vertices>
 double evaluate_texel(const ViewLookUp& view, const LayerImage& layer, std::uint32_t x, std::uint32_t y,
                       CodeDepth z) {
   const TexelAddress texel = address(view, layer, x, y);
   const std::uint32_t* first = texel.block->first + texel.index;
-  return evaluate_codes(Vertices{texel.block->words}, first[0], first[1], z);
-}
-
-/// The texels that a filter reads at a place.
-TexelQuad texels_of(const Place& place, Filter filter) {
-  const View& view = place.view->view;
-  TexelQuad quad;
-  if (filter == Filter::nearest) {
-    quad.x0 = quad.x1 = hold_texel(place.u, view.width);
-    quad.y0 = quad.y1 = hold_texel(place.v, view.height);
-  } else {
-    place_between(place.u, view.width, quad.x0, quad.x1, quad.share_x);
-    place_between(place.v, view.height, quad.y0, quad.y1, quad.share_y);
-  }
-  return quad;
+  shader::Functions<Vertices> functions{{texel.block->words}};
+  return functions.pdsm_evaluate(0, {first[0], first[1] - first[0], 0}, {z.whole, z.fraction});
 }
 
 template <typename Vertices>
 double evaluate_layer(const Place& place, const LayerImage& layer, const TexelQuad& quad, Filter filter) {
   const ViewLookUp& view = *place.view;
-  const double v00 = evaluate_texel<Vertices>(view, layer, quad.x0, quad.y0, place.z);
+  const auto value = [&](std::uint32_t x, std::uint32_t y) {
+    return evaluate_texel<Vertices>(view, layer, x, y, place.z);
+  };
+  const double v00 = value(quad.x.low, quad.y.low);
   if (filter == Filter::nearest) return v00;
-  return mix_quad(quad, v00, evaluate_texel<Vertices>(view, layer, quad.x1, quad.y0, place.z),
-                  evaluate_texel<Vertices>(view, layer, quad.x0, quad.y1, place.z),
-                  evaluate_texel<Vertices>(view, layer, quad.x1, quad.y1, place.z));
+  const double v10 = value(quad.x.high, quad.y.low), v01 = value(quad.x.low, quad.y.high),
+               v11 = value(quad.x.high, quad.y.high);
+  shader::PlainFunctions text;
+  return text.pdsm_mix(text.pdsm_mix(v00, v10, quad.x.share), text.pdsm_mix(v01, v11, quad.x.share),
+                       quad.y.share);
 }
 
 /// Filtered attenuation of all layers at a place within a view, as a real-valued code.
@@ -208,7 +215,7 @@ bool is_past_end(const Place& place) {
   const ViewLookUp& view = *place.view;
   const TexelQuad quad = texels_of(place, Filter::nearest);
   return std::any_of(view.layers.begin(), view.layers.end(), [&](const LayerImage& layer) {
-    const TexelAddress texel = address(view, layer, quad.x0, quad.y0);
+    const TexelAddress texel = address(view, layer, quad.x.low, quad.y.low);
     const std::uint32_t* ends = texel.block->domain_end;
     const auto last_code = static_cast<std::uint32_t>(view.range.depth_max);
     return place.z.whole >= (ends != nullptr ? ends[texel.index] : last_code);

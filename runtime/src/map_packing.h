@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "atlas.h"
+#include "pdsm/format/error.h"
+#include "pdsm/runtime/map_textures.h"
+
+/// The two layouts: they fill the textures and, in the views' tables, where functions lie. Throw Error
+/// (resource) "maps[n]: reason" when a limit would be exceeded.
+namespace pdsm {
+
+void pack_two_level(std::span<const PenumbraMap* const> maps, const TextureLimits& limits,
+                    MapTextures& textures);
+void pack_fixed_depth(std::span<const PenumbraMap* const> maps, const TextureLimits& limits,
+                      MapTextures& textures);
+
+/// Mip levels of a view that all its layers have and that find room beside level 0 (image_size).
+[[nodiscard]] std::uint32_t level_count(const PenumbraMap& map, std::uint32_t view);
+
+/// Room that all layers and levels of a view take, texels: layers one upon the other; beside level 0, level 1
+/// and below it the others.
+[[nodiscard]] std::array<std::uint32_t, 2> image_size(const ShaderView& view);
+
+/// Corner of one layer and level within that room, as pdsm_filter finds it.
+[[nodiscard]] std::array<std::uint32_t, 2> image_corner(const ShaderView& view, std::uint32_t layer,
+                                                        std::uint32_t level);
+
+/// Whether the tables of `view` hold this image.
+[[nodiscard]] inline bool is_packed(const ShaderView& view, const FunctionImage& image) {
+  return image.level < view.image[3];
+}
+
+/// An atlas within the limit, or the refusal of the map that needs most.
+[[nodiscard]] Atlas place_images(std::span<const std::array<std::uint32_t, 2>> sizes,
+                                 std::span<const std::uint32_t> map_of, const TextureLimits& limits);
+
+[[noreturn]] void refuse_map(std::size_t map, const std::string& reason);
+
+}  // namespace pdsm
