@@ -8,6 +8,7 @@
 //
 // Define before it, if wanted:
 //   PDSM_FIXED_DEPTH   the textures have the layout of the thesis, not the two-level one
+//   PDSM_ONLY_FILTER   0 (nearest) or 1 (bilinear): the filter of all maps, whatever their settings say
 //   PDSM_INPUTS        PDSM_DECLARE_INPUTS declares the inputs, in another binding model or language
 //
 // The text keeps to what C, GLSL and HLSL share. C++ compiles it too (runtime/src/shader_functions.h): the
@@ -126,6 +127,53 @@ uvec4 pdsm_vertex_texel(uint x, uint y) {
 
 #ifndef PDSM_FUNCTIONS_ONLY  // the look-up on the CPU goes its own, more exact way from points to depths
 
+// ---- What a program may be compiled for ----------------------------------------------------------------------
+// Where all maps have something in common, a constant in its place leaves code out of the program (the library's
+// shader_constants() writes these lines). Without them, the program takes every set.
+
+uint pdsm_form(uint view) {
+#ifdef PDSM_ONLY_FORM
+  return PDSM_ONLY_FORM;
+#else
+  return pdsm_views[view].form;
+#endif
+}
+uint pdsm_layer_count(uint view) {
+#ifdef PDSM_ONE_LAYER
+  return 1u;
+#else
+  return pdsm_views[view].image[2];
+#endif
+}
+uint pdsm_level_count(uint view) {
+#ifdef PDSM_ONE_LEVEL
+  return 1u;
+#else
+  return pdsm_views[view].image[3];
+#endif
+}
+uint pdsm_view_count(uint map) {
+#ifdef PDSM_ONE_VIEW
+  return 1u;
+#else
+  return pdsm_maps[map].view_count;
+#endif
+}
+bool pdsm_is_orthographic(uint view) {
+#ifdef PDSM_PERSPECTIVE
+  return false;
+#else
+  return (pdsm_views[view].flags & PDSM_ORTHOGRAPHIC) != 0u;
+#endif
+}
+bool pdsm_is_bilinear(uint map) {
+#ifdef PDSM_ONLY_FILTER
+  return PDSM_ONLY_FILTER != 0;
+#else
+  return (pdsm_maps[map].flags & PDSM_BILINEAR) != 0u;
+#endif
+}
+
 // Row `row` of a view, applied to a world point.
 PDSM_REAL pdsm_row(uint view, int row, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z) {
   return pdsm_views[view].rows[row][0] * x + pdsm_views[view].rows[row][1] * y + pdsm_views[view].rows[row][2] * z +
@@ -134,7 +182,7 @@ PDSM_REAL pdsm_row(uint view, int row, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z) {
 
 // What a view's rectangle of unit distance grows by up to a depth: everything lateral is per reach.
 PDSM_REAL pdsm_reach(uint view, PDSM_REAL depth) {
-  return (pdsm_views[view].flags & PDSM_ORTHOGRAPHIC) != 0u ? PDSM_REAL(1.0) : depth;
+  return pdsm_is_orthographic(view) ? PDSM_REAL(1.0) : depth;
 }
 
 // Code space of a depth z > near; behind far the largest code and fraction 1.
@@ -204,6 +252,11 @@ PDSM_REAL pdsm_mix(PDSM_REAL from, PDSM_REAL to, PDSM_REAL share) {
   return from + (to - from) * share;
 }
 
+// Mip level for a footprint in texels, 0 .. levels - 1.
+PDSM_REAL pdsm_level(PDSM_REAL texels, uint levels) {
+  return min(log2(max(texels, PDSM_REAL(1.0))), PDSM_REAL(levels - 1u));
+}
+
 // ---- One function of depth ---------------------------------------------------------------------------------
 
 // The line of a piece at a depth, as a real-valued code.
@@ -245,7 +298,7 @@ PdsmFunction pdsm_function(uint view, uint corner_x, uint corner_y, uint x, uint
   uvec4 entry = pdsm_index_texel(corner_x + x, corner_y + y);
   uint count_bits = pdsm_views[view].place[3];
   PdsmFunction f;
-  f.form = pdsm_views[view].form;
+  f.form = pdsm_form(view);
   // Packed in one word, or the count in the second and count_bits = 0.
   f.count = (entry[0] & ((1u << count_bits) - 1u)) | entry[1];
   f.first = pdsm_views[view].place[2] + (entry[0] >> count_bits) * f.form;
@@ -323,10 +376,9 @@ uint pdsm_slab_end(uint form, uvec4 slab, uint lane) {
 
 // The function of a texel at z: all vertices in order, until one lies behind z. Unused ones repeat the last.
 PDSM_REAL pdsm_texel(uint view, uint corner_x, uint corner_y, uint x, uint y, PdsmDepth z) {
-  uint form = pdsm_views[view].form;
+  uint form = pdsm_form(view);
   uint lanes = form == 1u ? 4u : form == 2u ? 2u : 1u;
-  uint levels = pdsm_views[view].image[3];
-  uint slab_width = pdsm_views[view].image[0] + (levels > 1u ? pdsm_views[view].image[0] >> 1 : 0u);
+    uint slab_width = pdsm_views[view].image[0] + (pdsm_level_count(view) > 1u ? pdsm_views[view].image[0] >> 1 : 0u);
   uint slab_height = pdsm_views[view].image[1] * pdsm_views[view].image[2];
   uint across = pdsm_views[view].place[2];
   uint depth = 0u;
@@ -373,22 +425,16 @@ PDSM_REAL pdsm_filter(uint view, uint layer, uint level, bool bilinear, PdsmPlac
   return pdsm_mix(pdsm_mix(v00, v10, x.share), pdsm_mix(v01, v11, x.share), y.share);
 }
 
-// Mip level of a footprint (metres), 0 .. levels - 1.
-PDSM_REAL pdsm_level(uint view, PdsmPlace place, PDSM_REAL footprint) {
-  PDSM_REAL texels = max(footprint * place.texels_per_metre, PDSM_REAL(1.0));
-  return min(log2(texels), PDSM_REAL(pdsm_views[view].image[3] - 1u));
-}
-
 // Attenuation at a place within a view: levels blended, layers combined.
-PDSM_REAL pdsm_look_up(uint view, uint map_flags, PdsmPlace place, PDSM_REAL footprint) {
+PDSM_REAL pdsm_look_up(uint view, uint map, PdsmPlace place, PDSM_REAL footprint) {
   if (place.lit) return PDSM_REAL(0.0);
-  bool bilinear = (map_flags & PDSM_BILINEAR) != 0u;
-  bool add = (map_flags & PDSM_LAYERS_ADD) != 0u;
-  PDSM_REAL level = pdsm_level(view, place, footprint);
+  bool bilinear = pdsm_is_bilinear(map);
+  bool add = (pdsm_maps[map].flags & PDSM_LAYERS_ADD) != 0u;
+  PDSM_REAL level = pdsm_level(footprint * place.texels_per_metre, pdsm_level_count(view));
   uint fine = uint(level);
   PDSM_REAL share = level - PDSM_REAL(fine);
   PDSM_REAL total = PDSM_REAL(0.0);
-  for (uint layer = 0u; layer < pdsm_views[view].image[2]; ++layer) {
+  for (uint layer = 0u; layer < pdsm_layer_count(view); ++layer) {
     PDSM_REAL value = pdsm_filter(view, layer, fine, bilinear, place);
     if (share > PDSM_REAL(0.0)) {
       value = pdsm_mix(value, pdsm_filter(view, layer, fine + 1u, bilinear, place), share);
@@ -402,10 +448,10 @@ PDSM_REAL pdsm_look_up(uint view, uint map_flags, PdsmPlace place, PDSM_REAL foo
 PDSM_REAL pdsm_attenuation_at(uint map, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z, PDSM_REAL normal_x,
                               PDSM_REAL normal_y, PDSM_REAL normal_z, PDSM_REAL footprint) {
   uint first = pdsm_maps[map].first_view;
-  uint last = first + pdsm_maps[map].view_count;
+  uint last = first + pdsm_view_count(map);
   for (uint view = first; view < last; ++view) {
     PdsmPlace place = pdsm_place_receiver(view, x, y, z, normal_x, normal_y, normal_z, pdsm_maps[map].normal_offset);
-    if (place.inside) return pdsm_look_up(view, pdsm_maps[map].flags, place, footprint);
+    if (place.inside) return pdsm_look_up(view, map, place, footprint);
   }
   return PDSM_REAL(0.0);
 }

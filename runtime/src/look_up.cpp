@@ -3,207 +3,75 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <vector>
 
-#include "code_depth.h"
+#include "packed_vertices.h"
+#include "prepared_view.h"
 #include "shader_functions.h"
 
 namespace pdsm {
 namespace {
 
-/// A block's arrays, borrowed.
-struct BlockPointers {
-  const std::uint32_t* first = nullptr;
-  const std::uint32_t* words = nullptr;
-  const std::uint32_t* domain_end = nullptr;  ///< null: all functions are exact up to far
-  std::uint32_t width = 0;
-};
-
-/// Level 0 of one layer of one view.
-struct LayerImage {
-  std::vector<BlockPointers> blocks;
-};
-
-/// One view, prepared: constants instead of divisions.
-struct ViewLookUp {
-  View view;
-  DepthRange range;
-  double scale_x = 0, scale_y = 0;  ///< texels per unit of the window
-  std::uint32_t blocks_across = 0;
-  std::vector<LayerImage> layers;
-};
-
-/// Rounding of a decoded depth, in units of the larger of near and far, with room to spare.
-constexpr double kDepthRounding = 0x1p-50;
-/// How much smaller the error of a fraction has to be than the fraction itself: below a float's rounding.
-constexpr double kFractionPrecision = 0x1p25;
-
-DepthRange make_range(const View& view, const VertexCoding& coding) {
-  DepthRange range;
-  range.near_depth = view.near_depth;
-  range.far_depth = view.far_depth;
-  range.depth_max = coding.depth_max();
-  range.scale = range.depth_max / (view.far_depth - view.near_depth);
-  const double largest = std::max(std::abs(view.near_depth), std::abs(view.far_depth));
-  const double error = kDepthRounding * largest * range.scale;
-  range.tolerance = std::clamp(error * kFractionPrecision, 0x1p-10, 0.5);
-  return range;
-}
-
-LayerImage make_layer(const FunctionImage& image) {
-  LayerImage layer;
-  layer.blocks.reserve(image.blocks.size());
-  for (std::uint32_t b = 0; b < image.blocks.size(); ++b) {
-    const FunctionBlock& block = image.blocks[b];
-    const auto extent =
-        block_extent(image.width, image.height, b % image.blocks_across(), b / image.blocks_across());
-    layer.blocks.push_back({block.first.data(), block.words.data(),
-                            block.domain_end.empty() ? nullptr : block.domain_end.data(), extent[0]});
-  }
-  return layer;
-}
-
-ViewLookUp make_view(const PenumbraMap& map, std::uint32_t index) {
-  ViewLookUp prepared;
-  const View& view = map.views[index];
-  prepared.view = view;
-  prepared.range = make_range(view, map.coding);
-  prepared.scale_x = view.width / (view.window[2] - view.window[0]);
-  prepared.scale_y = view.height / (view.window[3] - view.window[1]);
-  prepared.blocks_across = (view.width + kBlockSize - 1) / kBlockSize;
-  for (const FunctionImage& image : map.images)
-    if (image.view == index && image.level == 0) prepared.layers.push_back(make_layer(image));
-  return prepared;
-}
-
-/// Vertices of a block, coded with `DepthBits` and `ValueBits`: the compiler folds all shifts.
-template <std::uint32_t DepthBits, std::uint32_t ValueBits>
-struct PackedVertices {
-  static constexpr std::uint32_t kStride = (DepthBits + 2 * ValueBits + 31) / 32;
-  const std::uint32_t* words;
-
-  [[nodiscard]] std::uint32_t depth(std::uint32_t n) const { return bits<0, DepthBits>(n); }
-  [[nodiscard]] std::uint32_t begin(std::uint32_t n) const { return bits<DepthBits, ValueBits>(n); }
-  [[nodiscard]] std::uint32_t end(std::uint32_t n) const { return bits<DepthBits + ValueBits, ValueBits>(n); }
-
- private:
-  template <std::uint32_t Position, std::uint32_t Count>
-  [[nodiscard]] std::uint32_t bits(std::uint32_t n) const {
-    constexpr std::uint32_t kIndex = Position / 32, kShift = Position % 32;
-    const std::uint32_t* vertex = words + std::size_t{n} * kStride;
-    constexpr std::uint32_t kMask = ~std::uint32_t{0} >> (32 - Count);
-    if constexpr (kShift + Count <= 32) {
-      return vertex[kIndex] >> kShift & kMask;
-    } else {
-      const std::uint64_t value = vertex[kIndex] | std::uint64_t{vertex[kIndex + 1]} << 32;
-      return static_cast<std::uint32_t>(value >> kShift) & kMask;
-    }
-  }
-};
-
-/// Where a point meets a view: what all layers share.
-struct Place {
-  const ViewLookUp* view = nullptr;  ///< null: nowhere, `status` tells why
-  PointStatus status = PointStatus::outside;
-  double u = 0, v = 0;  ///< texels from the window's corner
-  bool is_lit = true;   ///< at near or before, where every function is 0
-  CodeDepth z;          ///< unless is_lit
-};
-
-/// The point in a view's own space.
-std::array<double, 3> to_view(const RigidTransform& transform, const std::array<double, 3>& p) {
-  const auto& r = transform.rotation;
-  const auto& t = transform.translation;
-  return {r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + t[0], r[3] * p[0] + r[4] * p[1] + r[5] * p[2] + t[1],
-          r[6] * p[0] + r[7] * p[1] + r[8] * p[2] + t[2]};
-}
-
-/// Finds the texel position of a point in view space. NaNs are outside.
-Place place_in_view(const ViewLookUp& prepared, const std::array<double, 3>& p) {
-  const View& view = prepared.view;
-  const auto& window = view.window;
-  const bool perspective = view.projection == Projection::perspective;
-  Place place;
-  if (perspective && p[2] <= 0) {
-    place.status = PointStatus::behind;
-    return place;
-  }
-  // The borders are scaled, not the point, so that a border given as tangent times z is met exactly.
-  const double reach = perspective ? p[2] : 1;
-  if (!(p[0] >= window[0] * reach && p[0] <= window[2] * reach && p[1] >= window[1] * reach &&
-        p[1] <= window[3] * reach && p[2] == p[2]))
-    return place;
-  const double x = perspective ? p[0] / p[2] : p[0];
-  const double y = perspective ? p[1] / p[2] : p[1];
-  place.view = &prepared;
-  place.u = (x - window[0]) * prepared.scale_x;
-  place.v = (y - window[1]) * prepared.scale_y;
-  place.status = p[2] < view.near_depth ? PointStatus::outside : PointStatus::inside;
-  place.is_lit = p[2] <= view.near_depth;
-  if (!place.is_lit) place.z = encode_depth(prepared.range, p[2]);
-  return place;
-}
-
-/// The block of a texel and the texel's index in it.
-struct TexelAddress {
-  const BlockPointers* block;
-  std::uint32_t index;
-};
-
-TexelAddress address(const ViewLookUp& view, const LayerImage& layer, std::uint32_t x, std::uint32_t y) {
-  const std::size_t b = std::size_t{y / kBlockSize} * view.blocks_across + x / kBlockSize;
-  const BlockPointers& block = layer.blocks[b];
-  return {&block, y % kBlockSize * block.width + x % kBlockSize};
-}
-
-/// The texels that a filter reads at a place, and their weights.
+/// The texels of one level that a filter reads at a place, and their weights.
 struct TexelQuad {
   shader::PlainFunctions::PdsmBetween x, y;
 };
 
-TexelQuad texels_of(const Place& place, Filter filter) {
-  const View& view = place.view->view;
+TexelQuad texels_of(const Place& place, const LevelImage& image, std::uint32_t level, Filter filter) {
   shader::PlainFunctions text;
+  const double shrink = 1.0 / static_cast<double>(std::uint32_t{1} << level);
+  const double u = place.u * shrink, v = place.v * shrink;
   if (filter == Filter::bilinear)
-    return {text.pdsm_between(place.u, view.width), text.pdsm_between(place.v, view.height)};
-  const std::uint32_t x = text.pdsm_holding(place.u, view.width), y = text.pdsm_holding(place.v, view.height);
+    return {text.pdsm_between(u, image.width), text.pdsm_between(v, image.height)};
+  const std::uint32_t x = text.pdsm_holding(u, image.width), y = text.pdsm_holding(v, image.height);
   return {{x, x, 0}, {y, y, 0}};
 }
 
 /// The function of one texel at z, as a real-valued code.
 template <typename Vertices>
-double evaluate_texel(const ViewLookUp& view, const LayerImage& layer, std::uint32_t x, std::uint32_t y,
-                      CodeDepth z) {
-  const TexelAddress texel = address(view, layer, x, y);
+double evaluate_texel(const LevelImage& image, std::uint32_t x, std::uint32_t y, CodeDepth z) {
+  const TexelAddress texel = image.address(x, y);
   const std::uint32_t* first = texel.block->first + texel.index;
   shader::Functions<Vertices> functions{{texel.block->words}};
   return functions.pdsm_evaluate(0, {first[0], first[1] - first[0], 0}, {z.whole, z.fraction});
 }
 
+/// One layer and level, filtered.
 template <typename Vertices>
-double evaluate_layer(const Place& place, const LayerImage& layer, const TexelQuad& quad, Filter filter) {
-  const ViewLookUp& view = *place.view;
-  const auto value = [&](std::uint32_t x, std::uint32_t y) {
-    return evaluate_texel<Vertices>(view, layer, x, y, place.z);
-  };
-  const double v00 = value(quad.x.low, quad.y.low);
+double evaluate_image(const Place& place, const LevelImage& image, std::uint32_t level, Filter filter) {
+  const TexelQuad quad = texels_of(place, image, level, filter);
+  const double v00 = evaluate_texel<Vertices>(image, quad.x.low, quad.y.low, place.z);
   if (filter == Filter::nearest) return v00;
-  const double v10 = value(quad.x.high, quad.y.low), v01 = value(quad.x.low, quad.y.high),
-               v11 = value(quad.x.high, quad.y.high);
+  const double v10 = evaluate_texel<Vertices>(image, quad.x.high, quad.y.low, place.z);
+  const double v01 = evaluate_texel<Vertices>(image, quad.x.low, quad.y.high, place.z);
+  const double v11 = evaluate_texel<Vertices>(image, quad.x.high, quad.y.high, place.z);
   shader::PlainFunctions text;
   return text.pdsm_mix(text.pdsm_mix(v00, v10, quad.x.share), text.pdsm_mix(v01, v11, quad.x.share),
                        quad.y.share);
 }
 
+/// The levels between which a footprint lies, blended.
+template <typename Vertices>
+double evaluate_layer(const Place& place, const std::vector<LevelImage>& levels, double level,
+                      Filter filter) {
+  const auto fine = static_cast<std::uint32_t>(level);
+  const double share = level - fine;
+  const double value = evaluate_image<Vertices>(place, levels[fine], fine, filter);
+  if (share == 0) return value;
+  const double coarse = evaluate_image<Vertices>(place, levels[fine + 1], fine + 1, filter);
+  return value + (coarse - value) * share;
+}
+
 /// Filtered attenuation of all layers at a place within a view, as a real-valued code.
 template <typename Vertices>
-double evaluate_place(const Place& place, LayerRule rule, double value_max, Filter filter) {
+double evaluate_place(const Place& place, LayerRule rule, double value_max, Filter filter, double footprint) {
   if (place.is_lit) return 0;
-  const TexelQuad quad = texels_of(place, filter);
+  double level = 0;
+  if (footprint > 0)
+    level = shader::PlainFunctions().pdsm_level(footprint * place.texels_per_metre, place.view->level_count);
   double total = 0;
-  for (const LayerImage& layer : place.view->layers) {
-    const double value = evaluate_layer<Vertices>(place, layer, quad, filter);
+  for (const auto& levels : place.view->layers) {
+    const double value = evaluate_layer<Vertices>(place, levels, level, filter);
     total = rule == LayerRule::maximum ? std::max(total, value) : std::min(total + value, value_max);
   }
   return total;
@@ -212,12 +80,12 @@ double evaluate_place(const Place& place, LayerRule rule, double value_max, Filt
 /// Whether the point lies past the domain of its texel's function in some layer.
 bool is_past_end(const Place& place) {
   if (place.is_lit) return false;
-  const ViewLookUp& view = *place.view;
-  const TexelQuad quad = texels_of(place, Filter::nearest);
-  return std::any_of(view.layers.begin(), view.layers.end(), [&](const LayerImage& layer) {
-    const TexelAddress texel = address(view, layer, quad.x.low, quad.y.low);
+  const auto last_code = static_cast<std::uint32_t>(place.view->range.depth_max);
+  const auto& layers = place.view->layers;
+  return std::any_of(layers.begin(), layers.end(), [&](const std::vector<LevelImage>& levels) {
+    const TexelQuad quad = texels_of(place, levels[0], 0, Filter::nearest);
+    const TexelAddress texel = levels[0].address(quad.x.low, quad.y.low);
     const std::uint32_t* ends = texel.block->domain_end;
-    const auto last_code = static_cast<std::uint32_t>(view.range.depth_max);
     return place.z.whole >= (ends != nullptr ? ends[texel.index] : last_code);
   });
 }
@@ -225,15 +93,15 @@ bool is_past_end(const Place& place) {
 }  // namespace
 
 struct PenumbraLookUp::Prepared {
-  std::vector<ViewLookUp> views;
+  std::vector<PreparedView> views;
   VertexCoding coding;
   LayerRule rule = LayerRule::maximum;
   double value_scale = 1;  ///< attenuation of one value code
 
   [[nodiscard]] Place place(const std::array<double, 3>& world_point) const;
   template <typename Vertices>
-  [[nodiscard]] float attenuation(const Place& place, Filter filter) const;
-  [[nodiscard]] LookUpResult result(const Place& place, Filter filter) const;
+  [[nodiscard]] float attenuation(const Place& place, Filter filter, double footprint) const;
+  [[nodiscard]] LookUpResult result(const Place& place, Filter filter, double footprint) const;
 
   /// Calls `action` with a value of the PackedVertices type that `coding` asks for.
   template <typename Action>
@@ -244,8 +112,8 @@ struct PenumbraLookUp::Prepared {
 Place PenumbraLookUp::Prepared::place(const std::array<double, 3>& world_point) const {
   Place nowhere;
   nowhere.status = PointStatus::behind;
-  for (const ViewLookUp& view : views) {
-    const Place place = place_in_view(view, to_view(view.view.world_to_view, world_point));
+  for (const PreparedView& view : views) {
+    const Place place = place_in_world(view, world_point);
     if (place.view != nullptr) return place;
     if (place.status != PointStatus::behind) nowhere.status = PointStatus::outside;
   }
@@ -253,9 +121,9 @@ Place PenumbraLookUp::Prepared::place(const std::array<double, 3>& world_point) 
 }
 
 template <typename Vertices>
-float PenumbraLookUp::Prepared::attenuation(const Place& place, Filter filter) const {
+float PenumbraLookUp::Prepared::attenuation(const Place& place, Filter filter, double footprint) const {
   if (place.view == nullptr) return 0;
-  const double code = evaluate_place<Vertices>(place, rule, coding.value_max, filter);
+  const double code = evaluate_place<Vertices>(place, rule, coding.value_max, filter, footprint);
   return static_cast<float>(code * value_scale);
 }
 
@@ -271,11 +139,12 @@ void PenumbraLookUp::Prepared::with_vertices(Action action) const {
   return action(PackedVertices<32, 32>{});
 }
 
-LookUpResult PenumbraLookUp::Prepared::result(const Place& place, Filter filter) const {
+LookUpResult PenumbraLookUp::Prepared::result(const Place& place, Filter filter, double footprint) const {
   LookUpResult result;
   result.status = place.status;
-  with_vertices(
-      [&]<typename Vertices>(Vertices) { result.attenuation = attenuation<Vertices>(place, filter); });
+  with_vertices([&]<typename Vertices>(Vertices) {
+    result.attenuation = attenuation<Vertices>(place, filter, footprint);
+  });
   if (place.status == PointStatus::inside && is_past_end(place)) result.status = PointStatus::past_end;
   return result;
 }
@@ -286,18 +155,19 @@ PenumbraLookUp::PenumbraLookUp(const PenumbraMap& map) {
   prepared->rule = map.layer_rule;
   prepared->value_scale = 1 / static_cast<double>(map.coding.value_max);
   for (std::uint32_t view = 0; view < map.views.size(); ++view)
-    prepared->views.push_back(make_view(map, view));
+    prepared->views.push_back(prepare_view(map, view));
   prepared_ = std::move(prepared);
 }
 
-LookUpResult PenumbraLookUp::at(const std::array<double, 3>& world_point, Filter filter) const {
-  return prepared_->result(prepared_->place(world_point), filter);
+LookUpResult PenumbraLookUp::at(const std::array<double, 3>& world_point, Filter filter,
+                                double footprint) const {
+  return prepared_->result(prepared_->place(world_point), filter, footprint);
 }
 
 LookUpResult PenumbraLookUp::at_view_point(const std::array<double, 3>& view_point, Filter filter,
                                            std::uint32_t view) const {
   assert(view < prepared_->views.size());
-  return prepared_->result(place_in_view(prepared_->views[view], view_point), filter);
+  return prepared_->result(place_in_view(prepared_->views[view], view_point), filter, 0);
 }
 
 void PenumbraLookUp::attenuations(std::span<const std::array<double, 3>> world_points, Filter filter,
@@ -306,7 +176,7 @@ void PenumbraLookUp::attenuations(std::span<const std::array<double, 3>> world_p
   const Prepared& prepared = *prepared_;
   prepared.with_vertices([&]<typename Vertices>(Vertices) {
     for (std::size_t n = 0; n < world_points.size(); ++n)
-      attenuation[n] = prepared.attenuation<Vertices>(prepared.place(world_points[n]), filter);
+      attenuation[n] = prepared.attenuation<Vertices>(prepared.place(world_points[n]), filter, 0);
   });
 }
 

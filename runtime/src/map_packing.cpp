@@ -2,22 +2,8 @@
 #include "map_packing.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace pdsm {
-
-std::uint32_t level_count(const PenumbraMap& map, std::uint32_t view) {
-  const View& base = map.views[view];
-  // Smaller levels than that would not lie beside level 0; min(width, height) >> level is at least 1.
-  auto levels = static_cast<std::uint32_t>(std::bit_width(std::min(base.width, base.height)));
-  for (std::uint32_t layer = 0; layer < map.layers.size(); ++layer) {
-    std::uint32_t found = 0;
-    for (const FunctionImage& image : map.images)
-      if (image.layer == layer && image.view == view && image.level == found) ++found;
-    levels = std::min(levels, found);
-  }
-  return levels;
-}
 
 std::array<std::uint32_t, 2> image_size(const ShaderView& view) {
   const auto [width, height, layers, levels] = view.image;

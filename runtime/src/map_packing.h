@@ -8,8 +8,13 @@
 #include <vector>
 
 #include "atlas.h"
+#include "level_count.h"
 #include "pdsm/format/error.h"
 #include "pdsm/runtime/map_textures.h"
+
+/// Flags of ShaderMap and ShaderView, as pdsm.glsl names them.
+inline constexpr std::uint32_t kBilinear = 1, kLayersAdd = 2;
+inline constexpr std::uint32_t kOrthographic = 1, kDepth32 = 2;
 
 /// The two layouts: they fill the textures and, in the views' tables, where functions lie. Throw Error
 /// (resource) "maps[n]: reason" when a limit would be exceeded.
@@ -19,9 +24,6 @@ void pack_two_level(std::span<const PenumbraMap* const> maps, const TextureLimit
                     MapTextures& textures);
 void pack_fixed_depth(std::span<const PenumbraMap* const> maps, const TextureLimits& limits,
                       MapTextures& textures);
-
-/// Mip levels of a view that all its layers have and that find room beside level 0 (image_size).
-[[nodiscard]] std::uint32_t level_count(const PenumbraMap& map, std::uint32_t view);
 
 /// Room that all layers and levels of a view take, texels: layers one upon the other; beside level 0, level 1
 /// and below it the others.

@@ -12,10 +12,6 @@
 namespace pdsm {
 namespace {
 
-// Flags of ShaderMap and ShaderView, as pdsm.glsl names them.
-constexpr std::uint32_t kBilinear = 1, kLayersAdd = 2;
-constexpr std::uint32_t kOrthographic = 1, kDepth32 = 2;
-
 /// The greatest float that is no greater than `code`.
 float float_below(std::uint32_t code) {
   const auto nearest = static_cast<float>(code);

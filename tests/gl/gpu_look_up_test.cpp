@@ -22,13 +22,14 @@ std::string name_of(GlApi api) {
 
 /// Holds the GPU to the look-up at `count` points of map `n` of the set, for both filters.
 void expect_agreement(ShadowTextures& shadows, GlApi api, const PenumbraMap& map, std::uint32_t n,
-                      std::size_t count) {
+                      std::size_t count, ShaderScope scope = ShaderScope::any_maps) {
   const PenumbraLookUp look_up(map);
   Random random(n + 1);
   const std::vector<FloatPoint> points = testing::points_to_try(random, map, count);
   for (const Filter filter : kFilters) {
     shadows.set_look_up(n, {filter, 0});
-    const std::vector<float> values = testing::gpu_look_up(shadows, api, n, points);
+    const std::vector<float> values =
+        testing::gpu_look_up(shadows, api, n, points, "pdsm_attenuation(map, position)", scope);
     for (std::size_t p = 0; p < points.size(); ++p) {
       ASSERT_TRUE(testing::may_say(values[p], map, look_up, points[p], filter))
           << points[p][0] << ' ' << points[p][1] << ' ' << points[p][2];
@@ -70,6 +71,45 @@ TEST(GpuLookUp, AgreesWithTheCpuForEveryCodingInOneSet) {
     for (const TextureLayout layout : kLayouts) {
       shadows.upload(pointers, layout);
       for (std::uint32_t n = 0; n < maps.size(); ++n) expect_agreement(shadows, api, maps[n], n, 2000);
+    }
+  }
+}
+
+TEST(GpuLookUp, AgreesWithTheCpuOnMipLevels) {
+  const EglContext context(GlApi::core_33);
+  ShadowTextures shadows(EglContext::loader());
+  MapShape shape;
+  shape.width = 70;
+  shape.height = 37;
+  shape.levels = 6;
+  const PenumbraMap map = random_map(5, shape);
+  const PenumbraMap* const maps[] = {&map};
+  const PenumbraLookUp look_up(map);
+  Random random(1);
+  const std::vector<FloatPoint> points = testing::points_to_try(random, map, 3000);
+  for (const TextureLayout layout : kLayouts) {
+    shadows.upload(maps, layout);
+    for (const float footprint : {0.1F, 0.7F, 3.0F, 100.0F}) {
+      const std::string expression = "pdsm_attenuation(map, position, " + std::to_string(footprint) + ")";
+      const auto values = testing::gpu_look_up(shadows, GlApi::core_33, 0, points, expression);
+      for (std::size_t n = 0; n < points.size(); ++n)
+        ASSERT_TRUE(testing::may_say(values[n], map, look_up, points[n], Filter::bilinear,
+                                     static_cast<double>(footprint)))
+            << n << " footprint " << footprint;
+    }
+  }
+}
+
+TEST(GpuLookUp, AgreesWithTheCpuWhenCompiledForTheseMaps) {
+  const EglContext context(GlApi::core_33);
+  ShadowTextures shadows(EglContext::loader());
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const PenumbraMap map = random_map(seed, testing::random_shape(seed));
+    const PenumbraMap* const maps[] = {&map};
+    for (const TextureLayout layout : kLayouts) {
+      shadows.upload(maps, layout);
+      expect_agreement(shadows, GlApi::core_33, map, 0, 2000, ShaderScope::these_maps);
     }
   }
 }

@@ -102,14 +102,18 @@ std::vector<FloatPoint> points_to_try(Random& random, const PenumbraMap& map, st
 }
 
 bool may_say(float value, const PenumbraMap& map, const PenumbraLookUp& look_up, const FloatPoint& point,
-             Filter filter) {
+             Filter filter, double footprint) {
   const Point centre{point[0], point[1], point[2]};
   const double step = 4 * ulp(largest_coordinate(map, centre));
-  const float slack = std::max(1 / static_cast<float>(map.coding.value_max), 0x1p-22F);
+  // A mip level, up to 6, is good to 3 ulp by GLSL's rules; where it is blended, so is the share of each
+  // level.
+  const float level_rounding = footprint > 0 ? 3 * 0x1p-21F : 0;
+  const float slack = std::max(1 / static_cast<float>(map.coding.value_max), 0x1p-22F) + level_rounding;
   float low = 1 + slack, high = -slack;
   const auto widen = [&](double x, double y, double z) {
     const float found =
-        look_up.at({centre[0] + x * step, centre[1] + y * step, centre[2] + z * step}, filter).attenuation;
+        look_up.at({centre[0] + x * step, centre[1] + y * step, centre[2] + z * step}, filter, footprint)
+            .attenuation;
     low = std::min(low, found - slack);
     high = std::max(high, found + slack);
     return value >= low && value <= high;

@@ -18,10 +18,11 @@ using FloatPoint = std::array<float, 3>;
 [[nodiscard]] std::vector<FloatPoint> points_to_try(Random& random, const PenumbraMap& map,
                                                     std::size_t count);
 
-/// Whether a look-up in floats may say `value`: it is within the look-up's least and greatest attenuation over
-/// the position +- 4 ulp along each axis (of the largest number that the position meets on its way into the
-/// views), widened by one quantum of the map's values, or a float's own rounding where the quantum is finer.
+/// Whether a look-up in floats may say `value`: it is within the look-up's least and greatest attenuation
+/// over the position +- 4 ulp along each axis (of the largest number that the position meets on its way into
+/// the views), widened by one quantum of the map's values, or a float's own rounding where the quantum is
+/// finer. With a footprint, also by what a shader's log2 may be off.
 [[nodiscard]] bool may_say(float value, const PenumbraMap& map, const PenumbraLookUp& look_up,
-                           const FloatPoint& point, Filter filter);
+                           const FloatPoint& point, Filter filter, double footprint = 0);
 
 }  // namespace pdsm::testing

@@ -130,6 +130,45 @@ TEST(LookUp, AgreesWithThePlainEvaluationForAnyMap) {
   }));
 }
 
+/// Bilinear value of one layer's level, straight from the definitions.
+double expected_level(const PenumbraMap& map, std::uint32_t level, double u, double v, double z) {
+  const FunctionImage& image = *std::find_if(map.images.begin(), map.images.end(),
+                                             [&](const FunctionImage& i) { return i.level == level; });
+  const double shrink = std::exp2(-static_cast<double>(level));
+  const double x = std::floor(u * shrink - 0.5), y = std::floor(v * shrink - 0.5);
+  const double a = u * shrink - 0.5 - x, b = v * shrink - 0.5 - y;
+  const auto value = [&](double i, double j) {
+    return texel_value(map, image, static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), z);
+  };
+  return (1 - b) * ((1 - a) * value(x, y) + a * value(x + 1, y)) +
+         b * ((1 - a) * value(x, y + 1) + a * value(x + 1, y + 1));
+}
+
+TEST(LookUp, AFootprintBlendsTheTwoMipLevelsAroundIt) {
+  MapShape shape;
+  shape.width = 37;
+  shape.height = 21;
+  shape.levels = 5;  // 21 >> 4 is 1
+  shape.projection = Projection::orthographic;
+  PenumbraMap map = random_map(9, shape);
+  View& view = map.views[0];
+  view.world_to_view = {};
+  view.window = {0, 0, 18.5, 10.5};  // two texels a metre
+  const PenumbraLookUp look_up(map);
+  Random random(3);
+  for (int n = 0; n < 2000; ++n) {
+    const double u = random.real(0, 37), v = random.real(0, 21),
+                 z = random.real(view.near_depth, view.far_depth);
+    const double footprint = random.real(0, 12);
+    const double level = std::clamp(std::log2(std::max(2 * footprint, 1.0)), 0.0, 4.0);
+    const auto fine = static_cast<std::uint32_t>(level);
+    const double share = level - fine;
+    const double expected = (1 - share) * expected_level(map, fine, u, v, z) +
+                            share * expected_level(map, std::min(fine + 1, 4U), u, v, z);
+    EXPECT_NEAR(look_up.at({u / 2, v / 2, z}, Filter::bilinear, footprint).attenuation, expected, 1e-6);
+  }
+}
+
 /// One texel; near 1, far 65536, so that code d is depth 1 + d.
 PenumbraMap one_texel_map(const std::vector<FunctionVertex>& function, const VertexCoding& coding = {}) {
   PenumbraMap map;

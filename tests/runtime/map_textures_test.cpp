@@ -66,6 +66,30 @@ TEST(MapTextures, ShaderAgreesWithTheLookUpForSetsOfAnyMaps) {
   }
 }
 
+TEST(MapTextures, ShaderAgreesWithTheLookUpOnMipLevels) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    MapShape shape = testing::random_shape(seed);
+    shape.width = 33;
+    shape.height = 20;
+    shape.levels = 5;
+    const PenumbraMap map = random_map(seed, shape);
+    const PenumbraMap* const maps[] = {&map};
+    const PenumbraLookUp look_up(map);
+    Random random(seed);
+    for (const TextureLayout layout : kLayouts) {
+      const MapTextures textures = make_map_textures(maps, layout);
+      for (const FloatPoint& p : testing::points_to_try(random, map, 300)) {
+        const auto footprint = static_cast<float>(random.real(0, 3));
+        const float value = mirror_attenuation(textures, 0, p, footprint);
+        ASSERT_TRUE(
+            testing::may_say(value, map, look_up, p, Filter::bilinear, static_cast<double>(footprint)))
+            << p[0] << ' ' << p[1] << ' ' << p[2] << " footprint " << footprint;
+      }
+    }
+  }
+}
+
 /// 1 x 1 texels, near 1, far 65536, looking along +z: depth code d is at 1 + d.
 PenumbraMap one_texel_map(const std::vector<FunctionVertex>& function) {
   PenumbraMap map;
@@ -153,6 +177,27 @@ TEST(MapTextures, TheReceiverIsMovedAlongItsNormal) {
   EXPECT_EQ(mirror.pdsm_attenuation_at(0, 0, 0, 120, 0, 0, -1, 0), 0);
   EXPECT_EQ(mirror.pdsm_attenuation_at(0, 0, 0, 120, 0, 0, 1, 0), 1);
   EXPECT_EQ(mirror.pdsm_attenuation_at(0, 0, 0, 120, 0, 0, 0, 0), 1);
+}
+
+TEST(MapTextures, ConstantsSayWhatAllMapsHaveInCommon) {
+  const PenumbraMap plain = one_texel_map({});
+  MapShape shape;
+  shape.coding = {32, 16, 1, 65535};
+  shape.layers = 2;
+  shape.views = 2;
+  shape.levels = 2;
+  shape.projection = Projection::orthographic;
+  const PenumbraMap other = random_map(1, shape);
+  const auto constants = [](const std::vector<const PenumbraMap*>& maps) {
+    return shader_constants(make_map_textures(maps, TextureLayout::two_level));
+  };
+  EXPECT_EQ(
+      constants({&plain, &plain}),
+      "#define PDSM_ONLY_FORM 1u\n#define PDSM_ONE_LAYER\n#define PDSM_ONE_LEVEL\n#define PDSM_PERSPECTIVE\n"
+      "#define PDSM_ONE_VIEW\n");
+  EXPECT_EQ(constants({&other}), "#define PDSM_ONLY_FORM 2u\n");
+  EXPECT_EQ(constants({&plain, &other}), "");
+  EXPECT_EQ(constants({}), "");
 }
 
 /// What() of the refusal, or nothing.

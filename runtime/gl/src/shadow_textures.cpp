@@ -40,6 +40,7 @@ struct ShadowTextures::State {
   bool tables_changed = true;
   std::vector<LookUpSettings> settings;  ///< one a map
   TextureLayout layout = TextureLayout::two_level;
+  std::string constants;  ///< shader_constants() of the maps
   std::uint64_t texture_bytes = 0;
 };
 
@@ -53,6 +54,7 @@ ShadowTextures& ShadowTextures::operator=(ShadowTextures&&) noexcept = default;
 void ShadowTextures::upload(std::span<const PenumbraMap* const> maps, TextureLayout layout,
                             const std::array<double, 3>& origin) {
   const MapTextures packed = make_map_textures(maps, layout, state_->limits, origin);
+  std::string constants = shader_constants(packed);
   auto index = upload_texture(state_->gl, packed.index);
   auto vertices = upload_texture(state_->gl, packed.vertices);
 
@@ -61,6 +63,7 @@ void ShadowTextures::upload(std::span<const PenumbraMap* const> maps, TextureLay
   state_->vertices = std::move(vertices);
   state_->contents = packed.tables;
   state_->layout = layout;
+  state_->constants = std::move(constants);
   state_->texture_bytes = packed.bytes();
   state_->settings.resize(maps.size());
   for (std::uint32_t n = 0; n < state_->settings.size(); ++n)
@@ -92,9 +95,10 @@ void ShadowTextures::bind(std::uint32_t program, std::uint32_t first_unit, std::
   gl.BindBuffer(GL_UNIFORM_BUFFER, static_cast<GLuint>(generic));
 }
 
-std::string ShadowTextures::shader_text() const {
-  const std::string define = state_->layout == TextureLayout::fixed_depth ? "#define PDSM_FIXED_DEPTH\n" : "";
-  return define + std::string(pdsm::shader_text());
+std::string ShadowTextures::shader_text(ShaderScope scope) const {
+  std::string lines = state_->layout == TextureLayout::fixed_depth ? "#define PDSM_FIXED_DEPTH\n" : "";
+  if (scope == ShaderScope::these_maps) lines += state_->constants;
+  return lines + std::string(pdsm::shader_text());
 }
 
 std::uint32_t ShadowTextures::map_count() const {

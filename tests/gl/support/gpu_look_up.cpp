@@ -42,8 +42,9 @@ std::string version_line(GlApi api) {
 }
 
 std::vector<float> gpu_look_up(ShadowTextures& shadows, GlApi api, std::uint32_t map,
-                               const std::vector<FloatPoint>& points, const std::string& expression) {
-  const std::string fragment = version_line(api) + shadows.shader_text() + R"(
+                               const std::vector<FloatPoint>& points, const std::string& expression,
+                               ShaderScope scope) {
+  const std::string fragment = version_line(api) + shadows.shader_text(scope) + R"(
 uniform highp sampler2D points;
 uniform int map;
 out uvec4 bits;

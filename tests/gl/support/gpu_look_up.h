@@ -13,7 +13,8 @@ namespace pdsm::testing {
 /// on the GPU, and brings the bits back.
 [[nodiscard]] std::vector<float> gpu_look_up(
     ShadowTextures& shadows, GlApi api, std::uint32_t map, const std::vector<FloatPoint>& points,
-    const std::string& expression = "pdsm_attenuation(map, position)");
+    const std::string& expression = "pdsm_attenuation(map, position)",
+    ShaderScope scope = ShaderScope::any_maps);
 
 /// The #version line of an API.
 [[nodiscard]] std::string version_line(GlApi api);

@@ -38,8 +38,11 @@ class PenumbraLookUp {
  public:
   explicit PenumbraLookUp(const PenumbraMap& map);
 
-  /// Attenuation at a world point (metres). A point on the border of the window is inside.
-  [[nodiscard]] LookUpResult at(const std::array<double, 3>& world_point, Filter filter) const;
+  /// Attenuation at a world point (metres). A point on the border of the window is inside. `footprint`:
+  /// metres between neighbouring look-ups, >= 0; from one texel on, maps with mip levels are asked at the two
+  /// levels around it, blended.
+  [[nodiscard]] LookUpResult at(const std::array<double, 3>& world_point, Filter filter,
+                                double footprint = 0) const;
 
   /// The same at a point given in the space of view `view` (light space), for tools that are there already.
   [[nodiscard]] LookUpResult at_view_point(const std::array<double, 3>& view_point, Filter filter,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -102,6 +103,10 @@ struct MapTextures {
 
 /// Changes how map `map` is looked up; the tables have to be uploaded again, the textures not.
 void set_look_up(ShaderTables& tables, std::uint32_t map, const LookUpSettings& settings);
+
+/// Lines for before pdsm.glsl that compile it for what these maps have in common (one vertex form, one layer,
+/// no mip levels, ...): a shorter program, which is right for sets with the same lines alone.
+[[nodiscard]] std::string shader_constants(const MapTextures& textures);
 
 /// The text of pdsm.glsl; see there for what to define before it and what to call.
 [[nodiscard]] std::string_view shader_text();

@@ -18,6 +18,13 @@ namespace pdsm {
 /// Address of a GL function by its name, null when there is none: glfwGetProcAddress, eglGetProcAddress.
 using GlSymbolLoader = std::function<void*(const char* name)>;
 
+/// What a program is compiled for.
+enum class ShaderScope {
+  any_maps,   ///< every set of maps in the same layout
+  these_maps  ///< what the maps of the last upload have in common: faster; has to be compiled anew when the
+              ///< text changes after another upload
+};
+
 /// A set of maps in two textures and a uniform buffer, which it owns and deletes.
 ///
 ///     pdsm::ShadowTextures shadows([](const char* name) { return (void*)glfwGetProcAddress(name); });
@@ -49,8 +56,9 @@ class ShadowTextures {
   /// texture unit and the program in use are restored. Inputs that the program does not use are left out.
   void bind(std::uint32_t program, std::uint32_t first_unit = 0, std::uint32_t block_binding = 0);
 
-  /// pdsm.glsl, for after the #version line; with the line that chooses the layout of the last upload().
-  [[nodiscard]] std::string shader_text() const;
+  /// pdsm.glsl, for after the #version line; with the lines that choose the layout of the last upload() and,
+  /// for these_maps, shader_constants().
+  [[nodiscard]] std::string shader_text(ShaderScope scope = ShaderScope::any_maps) const;
 
   [[nodiscard]] std::uint32_t map_count() const;
   [[nodiscard]] std::uint64_t texture_bytes() const;  ///< of both textures
