@@ -252,9 +252,14 @@ PDSM_REAL pdsm_mix(PDSM_REAL from, PDSM_REAL to, PDSM_REAL share) {
   return from + (to - from) * share;
 }
 
-// Mip level for a footprint in texels, 0 .. levels - 1.
+// Mip level for a footprint in texels, 0 .. levels - 1. Bilinear look-ups in texels of width w weigh an area with a
+// box of width w convolved with a tent of half width w: variance w^2/12 + w^2/6 along each axis. A pixel is a box of
+// width k, variance k^2/12. They match for
+//
+//   w = k / sqrt(3)
 PDSM_REAL pdsm_level(PDSM_REAL texels, uint levels) {
-  return min(log2(max(texels, PDSM_REAL(1.0))), PDSM_REAL(levels - 1u));
+  PDSM_REAL width = texels * PDSM_REAL(0.57735026919);
+  return min(log2(max(width, PDSM_REAL(1.0))), PDSM_REAL(levels - 1u));
 }
 
 // ---- One function of depth ---------------------------------------------------------------------------------

@@ -160,7 +160,7 @@ TEST(LookUp, AFootprintBlendsTheTwoMipLevelsAroundIt) {
     const double u = random.real(0, 37), v = random.real(0, 21),
                  z = random.real(view.near_depth, view.far_depth);
     const double footprint = random.real(0, 12);
-    const double level = std::clamp(std::log2(std::max(2 * footprint, 1.0)), 0.0, 4.0);
+    const double level = std::clamp(std::log2(std::max(2 * footprint / std::sqrt(3.0), 1.0)), 0.0, 4.0);
     const auto fine = static_cast<std::uint32_t>(level);
     const double share = level - fine;
     const double expected = (1 - share) * expected_level(map, fine, u, v, z) +

@@ -125,6 +125,17 @@ TEST(MapTextures, ShaderIsExactAtIntegers) {
   }
 }
 
+TEST(MapTextures, ShaderIsLitAtNearAndBefore) {
+  const PenumbraMap map = one_texel_map({{0, 51, 51}});  // blocked from near on
+  const PenumbraMap* const maps[] = {&map};
+  for (const TextureLayout layout : kLayouts) {
+    const MapTextures textures = make_map_textures(maps, layout);
+    EXPECT_EQ(mirror_attenuation(textures, 0, {0, 0, 1.5F}), 51 / 255.0F);
+    for (const float z : {1.0F, 0.5F, 0.0F, -1.0F})
+      EXPECT_EQ(mirror_attenuation(textures, 0, {0, 0, z}), 0) << z;
+  }
+}
+
 TEST(MapTextures, EqualFunctionsAreStoredOnce) {
   PenumbraMap map = one_texel_map({});
   map.views[0].width = 8;
