@@ -38,6 +38,8 @@ void add_quality_options(CLI::App& sub, BakeCommand& command) {
   add_choice(sub, "--points", options.points,
              {{"lattice", PointSet::lattice}, {"jittered", PointSet::jittered}},
              "How the light is sampled; default lattice");
+  add_count(sub, "--mip-levels", options.mip_levels, 0, kMostMipLevels,
+            "Levels of means for look-ups of many texels; default 0: none");
   add_count(sub, "--seed", options.seed, 0, ~std::uint64_t{0}, "Default 0");
 }
 

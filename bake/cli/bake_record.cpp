@@ -59,6 +59,7 @@ Json options_json(const BakeOptions& options, const BakeReport& report) {
           {"walk", walk_name(options.walk)},
           {"receivers", receivers_name(options.receivers)},
           {"points", options.points == PointSet::lattice ? "lattice" : "jittered"},
+          {"mip_levels", report.mip_levels},
           {"seed", options.seed}};
 }
 
@@ -124,6 +125,7 @@ nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& b
                    {"resident_after_bvh", report.resident_after_bvh}};
   json["samples"] = report.samples;
   json["resolution"] = {options.width, options.height};
+  json["mip_levels"] = report.mip_levels;
   json["epsilon"] = report.epsilon;
   json["depth_tolerance"] = report.depth_tolerance;
   json["bias"] = report.bias;

@@ -24,8 +24,8 @@ std::string as_text(const MapDifference& d) {
       fmt::format("max difference   {:.9g}\nmean difference  {:.9g}\ndiffering texels {} of {}\n",
                   d.max_difference, d.mean_difference, d.differing_texels, d.texels);
   if (d.max_difference > 0) {
-    text += fmt::format("worst at         image {} texel ({}, {}) depth {:.6g} m\n", d.worst_image, d.worst_i,
-                        d.worst_j, d.worst_depth);
+    text += fmt::format("worst at         image {} level {} texel ({}, {}) depth {:.6g} m\n", d.worst_image,
+                        d.worst_level, d.worst_i, d.worst_j, d.worst_depth);
   }
   if (d.differing_domains > 0) text += fmt::format("differing domains {}\n", d.differing_domains);
   return text;

@@ -54,12 +54,28 @@ Json bytes_json(const std::vector<std::byte>& bytes) {
   return {{"file", bytes.size()}, {"parts", parts}};
 }
 
-Json functions_json(const PenumbraMap& map) {
-  const MapStatistics statistics = map_statistics(map);
+Json functions_json(const MapStatistics& statistics) {
   return {{"texels", statistics.texels},
           {"empty_texels", statistics.empty_texels},
           {"pieces", statistics.pieces},
           {"longest", statistics.longest}};
+}
+
+/// Functions and bytes by mip level; the blocks' own bytes alone.
+Json levels_json(const PenumbraMap& map, const std::vector<std::byte>& bytes) {
+  Json levels = Json::array();
+  for (const FunctionImage& image : map.images) {
+    if (image.level < levels.size()) continue;
+    Json& level = levels.emplace_back(functions_json(level_statistics(map, image.level)));
+    level["stored"] = level["decoded"] = std::uint64_t{0};
+  }
+  for (const ChunkSummary& chunk : list_chunks(bytes)) {
+    if (chunk.type != "BLCK") continue;
+    Json& level = levels[map.images[chunk.image].level];
+    level["stored"] = level["stored"].get<std::uint64_t>() + chunk.stored_bytes;
+    level["decoded"] = level["decoded"].get<std::uint64_t>() + chunk.decoded_bytes;
+  }
+  return levels;
 }
 
 Json info_json(const PenumbraMap& map, const std::vector<std::byte>& bytes) {
@@ -71,7 +87,8 @@ Json info_json(const PenumbraMap& map, const std::vector<std::byte>& bytes) {
   json["images"] = map.images.size();
   json["coding"] = coding_json(map.coding);
   json["samples"] = map.samples.size();
-  json["functions"] = functions_json(map);
+  json["functions"] = functions_json(map_statistics(map));
+  json["levels"] = levels_json(map, bytes);
   json["bytes"] = bytes_json(bytes);
   json["metadata"] = metadata_of(map);
   return json;
@@ -109,6 +126,18 @@ std::string bytes_text(const Json& bytes) {
   for (const auto& [type, part] : bytes["parts"].items()) {
     text += fmt::format("  {:<8} {} ({} decoded, {} chunks)\n", type, part["stored"].get<std::uint64_t>(),
                         part["decoded"].get<std::uint64_t>(), part["chunks"].get<std::uint64_t>());
+  }
+  return text;
+}
+
+/// Nothing for a map of one level: all that could be said is said.
+std::string levels_text(const Json& levels) {
+  std::string text;
+  for (std::size_t n = 0; levels.size() > 1 && n < levels.size(); ++n) {
+    const auto number = [&](const char* key) { return levels[n][key].get<std::uint64_t>(); };
+    text += fmt::format("  level {:<2} {} bytes ({} decoded), {} texels, {} pieces, longest {}\n", n,
+                        number("stored"), number("decoded"), number("texels"), number("pieces"),
+                        number("longest"));
   }
   return text;
 }
@@ -153,7 +182,7 @@ std::string modelled_text(const Json& metadata) {
 std::string info_text(const std::string& name, const PenumbraMap& map, const std::vector<std::byte>& bytes) {
   const Json metadata = metadata_of(map);
   return name + "\n" + views_text(map) + functions_text(map) + metadata_text(metadata) +
-         modelled_text(metadata) + bytes_text(bytes_json(bytes));
+         modelled_text(metadata) + bytes_text(bytes_json(bytes)) + levels_text(levels_json(map, bytes));
 }
 
 int run_info(const InfoOptions& options) {

@@ -30,21 +30,6 @@ void fill_box(RgbImage& image, const Box& box, const glm::vec3& colour) {
   }
 }
 
-/// The round number (1, 2 or 5 times a power of ten) that is not below the 99th percentile of what differs.
-double scale_top(std::span<const float> values) {
-  std::vector<float> seen;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(seen), [](float v) { return v > 0; });
-  if (seen.empty()) return 0.01;
-  const auto rank = seen.begin() + static_cast<std::ptrdiff_t>((seen.size() - 1) * 99 / 100);
-  std::nth_element(seen.begin(), rank, seen.end());
-  const double wanted = std::clamp(static_cast<double>(*rank), 1e-4, 1.0);
-  const double power = std::pow(10.0, std::floor(std::log10(wanted) + 1e-6));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= wanted * (1 - 1e-6)) return step * power;
-  }
-  return 10 * power;
-}
-
 int text_width(const std::string& text, int scale) {
   std::string copy = text;
   return scale * stb_easy_font_width(copy.data());
@@ -72,6 +57,20 @@ void draw_strip(RgbImage& image, int top, int scale, double top_value, const std
 
 }  // namespace
 
+double heat_map_top(std::span<const float> values) {
+  std::vector<float> seen;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(seen), [](float v) { return v > 0; });
+  if (seen.empty()) return 0.01;
+  const auto rank = seen.begin() + static_cast<std::ptrdiff_t>((seen.size() - 1) * 99 / 100);
+  std::nth_element(seen.begin(), rank, seen.end());
+  const double wanted = std::clamp(static_cast<double>(*rank), 1e-4, 1.0);
+  const double power = std::pow(10.0, std::floor(std::log10(wanted) + 1e-6));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * power >= wanted * (1 - 1e-6)) return step * power;
+  }
+  return 10 * power;
+}
+
 void draw_text(RgbImage& image, int x, int y, int scale, const std::string& text, const glm::vec3& colour) {
   struct Vertex {
     float x, y, z;
@@ -97,7 +96,7 @@ RgbImage draw_heat_map(std::uint32_t width, std::uint32_t height, std::span<cons
   constexpr std::uint32_t kLargeText = 900;  // pixels of width from which one-pixel strokes get lost
   const int scale = width >= kLargeText ? 2 : 1;
   const auto strip = static_cast<std::uint32_t>(50 * scale);
-  const double top_value = scale_top(values);
+  const double top_value = heat_map_top(values);
 
   RgbImage image(width, height + strip, kNothing);
   for (std::size_t n = 0; n < values.size(); ++n) {

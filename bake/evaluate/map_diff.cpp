@@ -88,7 +88,7 @@ bool same_frame(const View& a, const View& b) {
 /// What keeps two maps from being compared; empty when nothing does.
 std::string find_obstacle(const PenumbraMap& a, const PenumbraMap& b) {
   if (a.views.size() != b.views.size()) return "numbers of views differ";
-  if (a.images.size() != b.images.size()) return "numbers of images differ";
+  if (a.images.size() != b.images.size()) return "numbers of images (layers, views, mip levels) differ";
   for (std::size_t v = 0; v < a.views.size(); ++v) {
     if (a.views[v].width != b.views[v].width || a.views[v].height != b.views[v].height) return "sizes differ";
     if (!same_frame(a.views[v], b.views[v])) return "frames of the views differ";
@@ -145,6 +145,7 @@ class Comparison {
     result_.worst_i = i;
     result_.worst_j = j;
     result_.worst_image = n;
+    result_.worst_level = a_.images[n].level;
     result_.worst_depth = found.depth;
   }
 

@@ -20,7 +20,7 @@ struct MapDifference {
   std::uint64_t differing_domains = 0;  ///< whose ends of domain differ, as codes; not a difference of V
   double max_difference = 0;            ///< largest |A - B| over texels and depths
   double mean_difference = 0;           ///< |A - B| averaged over the depths near .. far, then over texels
-  std::uint32_t worst_i = 0, worst_j = 0, worst_image = 0;
+  std::uint32_t worst_i = 0, worst_j = 0, worst_image = 0, worst_level = 0;  ///< texels of that mip level
   double worst_depth = 0;        ///< metres; where max_difference was seen
   std::vector<float> texel_max;  ///< largest |A - B| of each texel of image 0, row by row from y0
 };

@@ -7,7 +7,7 @@
 
 namespace pdsm {
 
-/// Counts over all functions of a map.
+/// Counts over functions.
 struct MapStatistics {
   std::uint64_t texels = 0;
   std::uint64_t empty_texels = 0;  ///< V = 0 everywhere
@@ -16,6 +16,10 @@ struct MapStatistics {
   std::uint64_t longest = 0;  ///< vertices of the longest function
 };
 
+/// Over all functions of a map.
 [[nodiscard]] MapStatistics map_statistics(const PenumbraMap& map);
+
+/// Over those of one mip level, of all layers and views.
+[[nodiscard]] MapStatistics level_statistics(const PenumbraMap& map, std::uint32_t level);
 
 }  // namespace pdsm

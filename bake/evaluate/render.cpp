@@ -12,51 +12,19 @@
 
 #include "evaluate/colour.h"
 #include "evaluate/heat_map.h"
+#include "evaluate/studio.h"
 #include "pdsm/runtime/look_up.h"
-#include "truth/light_points.h"
 #include "truth/shadow_rays.h"
 
 namespace pdsm {
 namespace {
-
-// Light of the studio in which scenes are shown; all in linear RGB, relative to a lit white surface.
-const glm::vec3 kSky(0.24F, 0.285F, 0.36F), kBounce(0.20F, 0.175F, 0.15F);
-const glm::vec3 kHorizon(0.185F, 0.215F, 0.26F), kZenith(0.075F, 0.09F, 0.115F);
-constexpr float kKeyStrength = 2.3F;
-/// Colours of the first, second, ... light: white ones look dull side by side.
-constexpr std::array<std::array<float, 3>, 4> kTints{
-    {{1.0F, 0.955F, 0.88F}, {0.80F, 0.89F, 1.0F}, {1.0F, 0.84F, 0.72F}, {0.90F, 1.0F, 0.92F}}};
-/// From where to where surfaces fade into the background, in radii of the focus.
-constexpr double kFadeBegin = 2.0, kFadeEnd = 6.0;
-
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-glm::vec3 background(const glm::dvec3& direction) {
-  return glm::mix(kHorizon, kZenith, static_cast<float>(smooth_step(0.0, 0.7, direction.y)));
-}
 
 /// A light ready to shade with.
 class Illumination {
  public:
   Illumination(const Scene& scene, const PictureLight& source, const Focus& focus,
                const RenderOptions& options, const glm::vec3& colour)
-      : truth_samples_(options.truth_samples) {
-    const RigidTransform light_to_world = inverse(light_frame(*source.light));
-    direction_ = apply(light_to_world, glm::dvec3(0, 0, 1)) - apply(light_to_world, glm::dvec3(0));
-    // A 3 x 3 grid of equal areas, without randomness.
-    for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
-      for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
-        const std::array<double, 2> p = light_point(*source.light, {u, v});
-        points_.push_back(apply(light_to_world, glm::dvec3(p[0], p[1], 0)));
-      }
-    }
-    // The light is as bright as makes a white surface at the focus, turned to it, `colour`.
-    const glm::dvec3 to_light = points_[points_.size() / 2] - focus.centre;
-    const float at_focus = irradiance(focus.centre, glm::vec3(glm::normalize(to_light)));
-    colour_ = colour / (at_focus > 0 ? at_focus : irradiance_near(focus));
+      : truth_samples_(options.truth_samples), studio_(make_studio_light(*source.light, focus, colour)) {
     if (source.map != nullptr) look_up_.emplace(*source.map);
     if (options.source != ShadowSource::map) {
       rays_ = std::make_unique<ShadowRays>(scene, *source.light, source.near_depth);
@@ -65,7 +33,7 @@ class Illumination {
 
   /// Light that would arrive on a surface without casters.
   [[nodiscard]] glm::vec3 unshadowed(const SurfacePoint& point) const {
-    return colour_ * irradiance(point.position, point.normal);
+    return studio_.colour * irradiance(studio_, point.position, point.normal);
   }
   [[nodiscard]] double map_attenuation(const glm::dvec3& p) const {
     return static_cast<double>(look_up_->at({p.x, p.y, p.z}, Filter::bilinear).attenuation);
@@ -76,27 +44,8 @@ class Illumination {
   }
 
  private:
-  [[nodiscard]] float irradiance(const glm::dvec3& position, const glm::vec3& normal) const {
-    double sum = 0;
-    for (const glm::dvec3& on_light : points_) {
-      const glm::dvec3 to_light = on_light - position;
-      const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
-      const double at_surface = glm::dot(glm::dvec3(normal), to_light),
-                   at_light = -glm::dot(direction_, to_light);
-      if (at_surface > 0 && at_light > 0) sum += at_surface * at_light / (squared * squared);
-    }
-    return static_cast<float>(sum / static_cast<double>(points_.size()));
-  }
-  /// For a light that does not shine on the focus: as if it were two radii in front of it.
-  [[nodiscard]] float irradiance_near(const Focus& focus) const {
-    const glm::dvec3 p = points_[points_.size() / 2] + 2 * focus.radius * direction_;
-    return irradiance(p, glm::vec3(-direction_));
-  }
-
   std::uint32_t truth_samples_;
-  glm::dvec3 direction_{0};
-  std::vector<glm::dvec3> points_;
-  glm::vec3 colour_{1};
+  StudioLight studio_;
   std::optional<PenumbraLookUp> look_up_;
   std::unique_ptr<ShadowRays> rays_;
 };
@@ -116,12 +65,8 @@ class Renderer {
         focus_(find_focus(scene)),
         camera_(options.camera ? *options.camera : default_camera(scene, picture_, focus_)),
         rays_(camera_, options.width, options.height) {
-    // Lights seldom all shine on one surface, so that together they are made brighter than one.
-    const auto count = static_cast<double>(std::max<std::size_t>(1, lights.size()));
-    const auto share = static_cast<float>(std::pow(count, -0.8));
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      const auto& tint = kTints[i % kTints.size()];
-      const glm::vec3 colour = kKeyStrength * share * glm::vec3(tint[0], tint[1], tint[2]);
+      const glm::vec3 colour = studio_colour(i, lights.size());
       lights_.push_back(std::make_unique<Illumination>(scene, lights[i], focus_, options, colour));
     }
   }
@@ -155,24 +100,22 @@ class Renderer {
   [[nodiscard]] Sample trace(double x, double y) const {
     const glm::dvec3 direction = rays_.direction(x, y);
     const std::optional<SurfacePoint> point = picture_.trace(camera_.eye, direction);
-    if (!point) return {background(direction)};
+    if (!point) return {studio_background(direction)};
     Sample sample = shade(*point);
-    const double away = glm::distance(point->position, focus_.centre) / focus_.radius;
-    const auto fade = static_cast<float>(smooth_step(kFadeBegin, kFadeEnd, away));
-    sample.light = glm::mix(sample.light, background(direction), fade);
+    sample.light = glm::mix(sample.light, studio_background(direction), studio_fade(focus_, point->position));
     return sample;
   }
 
   [[nodiscard]] Sample shade(const SurfacePoint& point) const {
     Sample sample;
-    glm::vec3 arriving = glm::mix(kBounce, kSky, 0.5F + 0.5F * point.normal.y);
+    glm::vec3 arriving = glm::mix(kStudioBounce, kStudioSky, 0.5F + 0.5F * point.normal.y);
     for (const auto& light : lights_) {
       const glm::vec3 full = light->unshadowed(point);
       // A surface that is turned away from a light is dark without any shadow.
       if (full == glm::vec3(0)) continue;
       const double v = attenuation(*light, point.position, sample);
       arriving += full * static_cast<float>(1 - v);
-      sample.shade += full.y / kKeyStrength;
+      sample.shade += full.y / kStudioKeyStrength;
     }
     sample.shade = std::clamp(0.25F + 0.75F * sample.shade, 0.0F, 1.0F);
     sample.light = point.colour * arriving;

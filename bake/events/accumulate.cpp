@@ -24,6 +24,11 @@ void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_co
 
 void accumulate(std::span<EventKey> keys, StepFunction& function) {
   std::sort(keys.begin(), keys.end());
+  sum_events(keys, function);
+}
+
+void sum_events(std::span<const EventKey> keys, StepFunction& function) {
+  assert(std::is_sorted(keys.begin(), keys.end()));
   function.depth.clear();
   function.count.clear();
   std::uint32_t blocked = 0;

@@ -37,22 +37,21 @@ void choose_depth_coding(const View& view, double depth_tolerance, FitRules& rul
   rules.codes_per_metre = 1 / step;
 }
 
-void fill_bounds(FitRules& rules) {
-  const double max = rules.coding.value_max, scale = static_cast<double>(kValueScale);
-  // Rounding an end to a code moves it by half a code; counts are codes already.
-  const double quantum = rules.constant_pieces ? 0 : scale / 2 + kRoundingSlack;
-  rules.lower.resize(std::size_t{rules.sample_count} + 1);
-  rules.upper.resize(std::size_t{rules.sample_count} + 1);
+void choose_bounds(FitRules& rules) {
+  const auto scale = static_cast<double>(kValueScale);
+  rules.half_width = scale * rules.coding.value_max * rules.epsilon;
+  rules.quantum = scale / 2 + kRoundingSlack;
+  if (!rules.constant_pieces) return;
+  // Counts are codes already; what lies between two has the nearest.
+  rules.half_width = std::max(rules.half_width, scale / 2);
+  rules.quantum = 0;
+}
+
+void fill_tables(FitRules& rules) {
   for (std::uint32_t count = 0; count <= rules.sample_count; ++count) {
-    const double value = scale * max * count / rules.sample_count, width = scale * max * rules.epsilon;
-    const auto low = static_cast<std::int64_t>(std::ceil(value - width + quantum));
-    const auto high = static_cast<std::int64_t>(std::floor(value + width - quantum));
-    rules.lower[count] = std::max<std::int64_t>(low, 0);
-    rules.upper[count] = std::min<std::int64_t>(high, kValueScale * std::int64_t{rules.coding.value_max});
-    if (!rules.constant_pieces) continue;
-    // A constant can only be a whole code.
-    rules.lower[count] = (rules.lower[count] + kValueScale - 1) / kValueScale * kValueScale;
-    rules.upper[count] = rules.upper[count] / kValueScale * kValueScale;
+    const CountBounds bounds = rules.bounds_of(count);
+    rules.lower.push_back(bounds.lower);
+    rules.upper.push_back(bounds.upper);
   }
 }
 
@@ -65,8 +64,18 @@ FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double eps
   rules.epsilon = epsilon;
   choose_value_coding(rules);
   choose_depth_coding(view, depth_tolerance, rules);
-  fill_bounds(rules);
+  choose_bounds(rules);
+  fill_tables(rules);
   return rules;
+}
+
+FitRules make_level_rules(const FitRules& rules, std::uint32_t level) {
+  FitRules of_level = rules;
+  of_level.sample_count = rules.sample_count << (2 * level);
+  // Tables of 4^6 N counts would take gigabytes.
+  of_level.lower.clear();
+  of_level.upper.clear();
+  return of_level;
 }
 
 }  // namespace pdsm

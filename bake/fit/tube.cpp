@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-/// Ceiling of x >= 0, inline on any target.
-std::int64_t round_up(double x) {
-  const auto whole = static_cast<std::int64_t>(x);
-  return whole + (static_cast<double>(whole) < x ? 1 : 0);
-}
-
 /// Segment k of V is constant on (x_k, x_k+1]. A window of half width delta around a depth meets it if the
 /// depth is in [x_k - delta, x_k+1 + delta]: whole codes within that are [opens[k], closes[k]]. Both grow
 /// with k, and since 2 delta holds a code, segment k + 1 opens before k closes.
@@ -79,13 +73,13 @@ void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspa
     while (room.closes[first] <= at) ++first;
     least.drop_before(first);
     greatest.drop_before(first);
-    const std::int64_t low = rules.lower[least.get()], high = rules.upper[greatest.get()];
+    const std::int64_t low = rules.lower_of(least.get()), high = rules.upper_of(greatest.get());
     if (tube.empty() || tube.back().low != low || tube.back().high != high) tube.push_back({at, low, high});
     at = std::min(room.closes[first], next < segments ? room.opens[next] : kNever);
   }
   // What holds beyond the last code is V's last value, which the last run has room for.
   const std::uint32_t last_count = function.count.back();
-  if (at != kNever) tube.back() = {tube.back().begin, rules.lower[last_count], rules.upper[last_count]};
+  if (at != kNever) tube.back() = {tube.back().begin, rules.lower_of(last_count), rules.upper_of(last_count)};
 }
 
 void relax_tube(const FitRules& rules, std::span<const CodeBand> bands, std::vector<TubeRun>& tube) {

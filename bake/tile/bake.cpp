@@ -10,6 +10,7 @@
 #include "events/event_log.h"
 #include "pdsm/format/error.h"
 #include "tile/bake_job.h"
+#include "tile/map_blocks.h"
 
 namespace pdsm {
 namespace {
@@ -97,9 +98,12 @@ PenumbraMap make_map_frame(const BakeJob& job) {
   map.views = {job.fitted.view};
   map.coding = job.rules.coding;
   map.samples = job.samples;
-  map.images.resize(1);
-  map.images[0].width = job.fitted.view.width;
-  map.images[0].height = job.fitted.view.height;
+  for (std::uint32_t level = 0; level <= job.mip_levels; ++level) {
+    FunctionImage& image = map.images.emplace_back();
+    image.level = level;
+    image.width = job.fitted.view.width >> level;
+    image.height = job.fitted.view.height >> level;
+  }
   return map;
 }
 
@@ -118,6 +122,7 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.pieces = done.pieces;
   report.empty_texels = done.empty_texels;
   report.tiles = tiles;
+  report.mip_levels = job.mip_levels;
   report.peak_event_bytes = done.event_bytes;
   report.resident_after_bvh = job.resident_after_bvh;
   report.map_width =
@@ -151,16 +156,12 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
   BakedMap baked;
   baked.map = make_map_frame(job);
   baked.fitted = job.fitted;
-  const FunctionImage& image = baked.map.images[0];
-  baked.blocks.resize(1);
-  baked.blocks[0].resize(std::size_t{image.blocks_across()} * image.blocks_up());
-  const BlockSink sink = [&](std::uint32_t block, std::uint32_t width, std::uint32_t height,
-                             FunctionBlock&& functions) {
-    baked.blocks[0][block] = encode_block(job.rules.coding, width, height, functions);
-  };
+  MapBlocks blocks(job.rules.coding, baked.map.images);
   const TileInput input = job.tile_input();
-  TileRun run(job, input, sink, callbacks);
+  TileRun run(
+      job, input, [&](FittedBlock&& block) { blocks.take(std::move(block)); }, callbacks);
   const TileStatistics done = run.run();
+  baked.blocks = blocks.release();
   baked.report = make_report(job, done, run.tiles(), start);
   return baked;
 }
@@ -172,11 +173,8 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   const TileInput trial = job.tile_input(stride);
   const double scale = static_cast<double>(count) / static_cast<double>(trial.samples.size());
   // The trial's blocks are encoded as a bake's are, then dropped.
-  TileRun run(job, trial,
-              [&](auto, std::uint32_t width, std::uint32_t height, FunctionBlock&& functions) {
-                (void)encode_block(job.rules.coding, width, height, functions);
-              },
-              {});
+  MapBlocks blocks(job.rules.coding, make_map_frame(job).images);
+  TileRun run(job, trial, [&](FittedBlock&& block) { blocks.take(std::move(block)); }, {});
   const TileStatistics done = run.run();
   const double per_sample = (done.trace + done.walk + done.accumulate + done.fit) / job.options.threads;
   BakePrediction prediction;

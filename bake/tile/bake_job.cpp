@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 
@@ -46,6 +47,7 @@ void check_options(const BakeOptions& o) {
   require(is_length(o.bias), "--bias", "must be 0 or more metres");
   require(o.tile % kBlockSize == 0, "--tile", "must be a multiple of 64");
   require(o.threads <= 1024, "--threads", "must be at most 1024");
+  require(o.mip_levels <= kMostMipLevels, "--mip-levels", "must be from 0 to 6");
 }
 
 BakeOptions fill_in(BakeOptions o) {
@@ -58,6 +60,11 @@ BakeOptions fill_in(BakeOptions o) {
   // More threads than tasks would only take memory.
   o.threads = std::min(o.threads, std::max(o.samples, blocks_along(o.width) * blocks_along(o.height)));
   return o;
+}
+
+/// Levels above 0 that are made: as many as are asked for and as the smaller side can be halved.
+std::uint32_t count_mip_levels(const BakeOptions& o) {
+  return std::min(o.mip_levels, static_cast<std::uint32_t>(std::bit_width(std::min(o.width, o.height)) - 1));
 }
 
 std::uint64_t resident_bytes() {
@@ -103,7 +110,8 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
   rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
                          options.depth_tolerance.value_or(kToleranceShare * bias));
-  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile});
+  mip_levels = count_mip_levels(options);
+  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
@@ -124,7 +132,10 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   fitted.nothing_casts && options.light_samples.empty(),
                   bound_samples(samples),
                   caster_clip_depth(fitted, !options.light_samples.empty()),
-                  kDepthRounding * grid.far_depth};
+                  kDepthRounding * grid.far_depth,
+                  {}};
+  for (std::uint32_t level = 1; level <= mip_levels; ++level)
+    input.level_rules.push_back(make_level_rules(rules, level));
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
   return input;
 }
@@ -156,6 +167,12 @@ std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
   list.push_back({"surfaces alone", job.options.receivers == Receivers::surfaces,
                   job.options.receivers == Receivers::surfaces ? "--receivers surfaces leaves free space out"
                                                                : "anything may receive in free space"});
+  list.push_back({"mip levels", job.mip_levels > 0,
+                  job.mip_levels > 0
+                      ? "look-ups of up to " + std::to_string(1U << job.mip_levels) +
+                            " texels across find their mean: levels up to " + std::to_string(job.mip_levels)
+                  : job.options.mip_levels > 0 ? "the map is one texel across"
+                                               : "not asked for by --mip-levels"});
   list.push_back({"fitted window", fitted.window_fitted,
                   fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
   list.push_back(

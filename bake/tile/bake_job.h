@@ -26,6 +26,7 @@ class BakeJob {
   MapGrid grid;
   double bias = 0;
   FitRules rules;
+  std::uint32_t mip_levels = 0;  ///< above 0, that are made
   TilePlan plan;
   LightSpaceScene light_space;
   std::unique_ptr<EmbreeScene> embree;

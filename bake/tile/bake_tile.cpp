@@ -9,9 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "events/accumulate.h"
 #include "events/event_log.h"
-#include "fit/fit_function.h"
+#include "tile/fit_block.h"
 #include "tile/parallel_failure.h"
 #include "tile/shadow_cells.h"
 #include "trace/domain_ends.h"
@@ -25,15 +24,6 @@ namespace {
 
 /// Flush-to-zero and denormals-are-zero: the same arithmetic in every thread, as Embree wants it.
 constexpr unsigned kFlushDenormals = 0x8040;
-
-/// One block of the tile, with all that its rays need.
-struct TileBlock {
-  TexelRect rect;           ///< texels of the map
-  std::uint32_t index = 0;  ///< in the map
-  std::vector<float> domain_ends;
-  std::vector<RayPacket> packets;            ///< by the shift law only
-  std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
-};
 
 /// What one thread owns while walking.
 struct WalkThread {
@@ -193,64 +183,6 @@ void process_sample(const TileInput& input, const LightSample& sample, const Tex
   thread.statistics.walk += omp_get_wtime() - traced;
 }
 
-/// Depth code of a domain end, rounded up.
-std::uint32_t end_code(const FitRules& rules, float end) {
-  const double code = std::ceil(rules.code_of(end)), max = rules.coding.depth_max();
-  return static_cast<std::uint32_t>(std::clamp(code, 0.0, max));
-}
-
-/// What one thread owns while fitting.
-struct FitThread {
-  BlockEvents events;
-  StepFunction function;
-  FitWorkspace room;
-  std::vector<FunctionVertex> vertices;
-  TileStatistics statistics;
-};
-
-void append_function(const VertexCoding& coding, const std::vector<FunctionVertex>& vertices,
-                     FunctionBlock& block) {
-  const std::size_t words = coding.words_per_vertex();
-  for (const FunctionVertex& vertex : vertices) {
-    block.words.resize(block.words.size() + words);
-    pack_vertex(coding, vertex, block.words.data() + block.words.size() - words);
-  }
-  block.first.push_back(static_cast<std::uint32_t>(block.words.size() / words));
-}
-
-/// Sums up and fits all functions of one block.
-FunctionBlock fit_block(const TileInput& input, const TileBlock& block, std::span<const EventLog* const> logs,
-                        FitThread& thread) {
-  const double start = omp_get_wtime();
-  const auto texels = static_cast<std::uint32_t>(block.rect.area());
-  gather_events(logs, texels, thread.events);
-  double accumulated = omp_get_wtime() - start;
-  FunctionBlock functions;
-  functions.first.reserve(texels + std::size_t{1});
-  functions.first.push_back(0);
-  for (std::uint32_t t = 0; t < texels; ++t) {
-    const std::size_t first = thread.events.first[t], last = thread.events.first[t + 1];
-    thread.vertices.clear();
-    if (first != last) {
-      const double before = omp_get_wtime();
-      accumulate(std::span(thread.events.keys).subspan(first, last - first), thread.function);
-      accumulated += omp_get_wtime() - before;
-      fit_function(thread.function, input.rules, thread.room, thread.vertices,
-                   block.bands.empty() ? nullptr : &block.bands[t]);
-    }
-    thread.statistics.empty_texels += thread.vertices.empty() ? 1 : 0;
-    thread.statistics.pieces += thread.vertices.size();
-    append_function(input.rules.coding, thread.vertices, functions);
-  }
-  if (input.receivers != Receivers::all) {
-    for (const float end : block.domain_ends) functions.domain_end.push_back(end_code(input.rules, end));
-  }
-  thread.statistics.events += thread.events.keys.size();
-  thread.statistics.accumulate += accumulated;
-  thread.statistics.fit += omp_get_wtime() - start - accumulated;
-  return functions;
-}
-
 /// Share of a tile's work that its walks are, for progress.
 constexpr double kWalkShare = 0.85;
 
@@ -355,12 +287,10 @@ class TileJob {
   void fit_and_hand_over(std::size_t b, FitThread& thread) {
     std::vector<const EventLog*> logs;
     for (const WalkThread& walker : walkers_) logs.push_back(&walker.logs[b]);
-    const TileBlock& block = blocks_[b];
-    FunctionBlock functions = fit_block(input_, block, logs, thread);
+    FittedBlock fitted = fit_block(input_, blocks_[b], logs, thread);
     for (WalkThread& walker : walkers_) walker.logs[b].clear();
     const double start = omp_get_wtime();
-    sink_(block.index, static_cast<std::uint32_t>(block.rect.x1 - block.rect.x0),
-          static_cast<std::uint32_t>(block.rect.y1 - block.rect.y0), std::move(functions));
+    sink_(std::move(fitted));
     thread.statistics.fit += omp_get_wtime() - start;
   }
 

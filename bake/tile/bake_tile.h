@@ -7,6 +7,7 @@
 #include "fit/fit_rules.h"
 #include "pdsm/bake/bake.h"
 #include "tile/shadow_cells.h"
+#include "tile/tile_block.h"
 #include "tile/tile_plan.h"
 #include "trace/embree_scene.h"
 
@@ -27,22 +28,22 @@ struct TileInput {
   LightBounds light_bounds;    ///< of all samples of the bake
   double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
   double depth_rounding = 0;   ///< metres: what traced depths may be off
+  std::vector<FitRules> level_rules = {};  ///< of mip levels 1, 2, ...; none where none are made
 };
 
 /// What a tile did; sums over its threads.
 struct TileStatistics {
   double prepare = 0;                                   ///< wall seconds before the first sample
   double trace = 0, walk = 0, accumulate = 0, fit = 0;  ///< thread seconds
-  std::uint64_t rays = 0, events = 0, pieces = 0, empty_texels = 0, event_bytes = 0;
+  std::uint64_t rays = 0, events = 0, event_bytes = 0;
+  std::uint64_t pieces = 0, empty_texels = 0;  ///< of level 0
   double slope_bias_sum = 0, slope_bias_max = 0;
 
   void add(const TileStatistics& other);
 };
 
-/// Takes finished blocks: index of the block in the map, its size in texels, its functions. Called from
-/// several threads at once, once a block.
-using BlockSink = std::function<void(std::uint32_t block, std::uint32_t width, std::uint32_t height,
-                                     FunctionBlock&& functions)>;
+/// Takes finished blocks. Called from several threads at once, once a block.
+using BlockSink = std::function<void(FittedBlock&& block)>;
 
 /// Called from one thread while a tile is baked: share done 0..1. Returns true to cancel.
 using TileProgress = std::function<bool(double share)>;

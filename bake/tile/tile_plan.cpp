@@ -19,10 +19,16 @@ namespace {
 constexpr double kExpectedEvents = 0.5;
 /// Encoded bytes per texel that a plan sets aside; the dragon needs 6 at epsilon 0.02.
 constexpr std::uint64_t kOutputBytesPerTexel = 8;
+/// The same of the mip levels, and what their parts take while they wait for their blocks; the dragon needs
+/// 3 and 13.
+constexpr std::uint64_t kLevelBytesPerTexel = 24;
 /// Allocator slack and tables of a thread, besides the events of the block that it fits.
 constexpr std::uint64_t kThreadOverhead = std::uint64_t{1} << 20;
 /// Bytes per event of a block being fitted: its key, the step it makes, and the tube's runs around that.
 constexpr double kFitBytesPerEvent = 8;
+/// The same for a block with mip levels: the keys of the next level, and for each event of one texel of the
+/// last level its step (8), where that opens and closes (16) and is queued (8), and two runs (48).
+constexpr double kMergeBytesPerEvent = 4, kLevelFitBytesPerEvent = 80;
 /// Tasks per thread below which a tile's samples are cut into strips.
 constexpr std::uint32_t kLeastTasksPerThread = 4;
 constexpr std::uint32_t kLargestTile = 4096;
@@ -46,6 +52,21 @@ std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
   return tiles;
 }
 
+/// Bytes of a thread for each event of a block of `block_texels` that it fits.
+double fit_bytes_per_event(std::uint32_t mip_levels, double block_texels) {
+  if (mip_levels == 0) return kFitBytesPerEvent;
+  const double share = std::min(1.0, std::ldexp(1.0, 2 * static_cast<int>(mip_levels)) / block_texels);
+  return kFitBytesPerEvent + kMergeBytesPerEvent + share * kLevelFitBytesPerEvent;
+}
+
+std::uint64_t estimate_output(const PlanInput& input) {
+  const std::uint64_t width = input.grid.texels[0], height = input.grid.texels[1];
+  std::uint64_t bytes = width * height * kOutputBytesPerTexel;
+  for (std::uint32_t level = 1; level <= input.mip_levels; ++level)
+    bytes += (width >> level) * (height >> level) * kLevelBytesPerTexel;
+  return bytes;
+}
+
 TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   TilePlan plan;
   plan.edge = edge;
@@ -63,9 +84,9 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
   const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(first.area()));
   const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
-  plan.map_bytes = input.threads *
-                   (largest + kThreadOverhead + static_cast<std::uint64_t>(kFitBytesPerEvent * block_events));
-  plan.output_bytes = texels * kOutputBytesPerTexel;
+  const double fit_bytes = fit_bytes_per_event(input.mip_levels, block_texels) * block_events;
+  plan.map_bytes = input.threads * (largest + kThreadOverhead + static_cast<std::uint64_t>(fit_bytes));
+  plan.output_bytes = estimate_output(input);
   const std::uint64_t fixed = plan.map_bytes + plan.output_bytes;
   plan.event_limit = input.memory > fixed ? input.memory - fixed : 0;
   const auto tasks = static_cast<std::uint32_t>(input.samples.size());

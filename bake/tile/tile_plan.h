@@ -28,8 +28,9 @@ struct PlanInput {
   std::span<const LightSample> samples;
   Walk walk;
   std::uint32_t threads;
-  std::uint64_t memory;  ///< bytes
-  std::uint32_t edge;    ///< 0: choose
+  std::uint64_t memory;          ///< bytes
+  std::uint32_t edge;            ///< 0: choose
+  std::uint32_t mip_levels = 0;  ///< above 0
 };
 
 /// The tiles that trace the fewest rays within `memory`: small tiles waste rays on margins, large ones

@@ -148,6 +148,9 @@ Verdict check_images(const PenumbraMap& map) {
     if (image.width != std::max(1U, view.width >> image.level) ||
         image.height != std::max(1U, view.height >> image.level))
       return violation("images of the view's size, halved for each level");
+    const auto below = std::tuple(image.layer, image.view, image.level - 1);
+    if (image.level > 0 && (n == 0 || key(map.images[n - 1]) != below))
+      return violation("levels without a gap");
     base_images += image.level == 0 ? 1 : 0;
   }
   if (base_images != std::uint64_t{map.layers.size()} * map.views.size())

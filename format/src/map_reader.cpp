@@ -55,8 +55,8 @@ std::vector<ChunkSummary> list_chunks(std::span<const std::byte> bytes) {
   const auto table = parse_table(bytes, faults);
   if (!table) return chunks;
   for (const TableEntry& entry : table->entries)
-    chunks.push_back(
-        {std::string(entry.type.begin(), entry.type.end()), entry.stored_size, entry.decoded_size});
+    chunks.push_back({std::string(entry.type.begin(), entry.type.end()), entry.image, entry.stored_size,
+                      entry.decoded_size});
   return chunks;
 }
 

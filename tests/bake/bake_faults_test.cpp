@@ -67,6 +67,8 @@ TEST(BakeFaults, OptionsOutOfRangeAreUsageErrorsThatNameTheOption) {
       {"--tile: ", [](BakeOptions& o) { o.tile = 63; }},
       {"--tile: ", [](BakeOptions& o) { o.tile = 100; }},
       {"--threads: ", [](BakeOptions& o) { o.threads = 1025; }},
+      {"--mip-levels: ", [](BakeOptions& o) { o.mip_levels = 7; }},
+      {"--mip-levels: ", [](BakeOptions& o) { o.mip_levels = 0xFFFFFFFF; }},
       {"--isa: ", [](BakeOptions& o) { o.isa = "mmx"; }},
       {"--isa: ", [](BakeOptions& o) { o.isa = "AVX2"; }},
       {"--isa: ", [](BakeOptions& o) { o.isa = "sse2,threads=99"; }},
@@ -97,9 +99,9 @@ TEST(BakeFaults, ValuesAtTheEndsOfTheirRangesAreTaken) {
            [](BakeOptions& o) { o.epsilon = std::nextafter(1.0, 0.0); },
            [](BakeOptions& o) { o.depth_tolerance = 0; }, [](BakeOptions& o) { o.bias = 0; },
            [](BakeOptions& o) { o.tile = 64; }, [](BakeOptions& o) { o.tile = 6400; },
-           [](BakeOptions& o) { o.threads = 0; }, [](BakeOptions& o) { o.isa = "sse2"; },
-           [](BakeOptions& o) { o.bias = 1e6; }, [](BakeOptions& o) { o.depth_tolerance = 1e6; },
-           [](BakeOptions& o) { o.map_width = 1; }}) {
+           [](BakeOptions& o) { o.mip_levels = 6; }, [](BakeOptions& o) { o.threads = 0; },
+           [](BakeOptions& o) { o.isa = "sse2"; }, [](BakeOptions& o) { o.bias = 1e6; },
+           [](BakeOptions& o) { o.depth_tolerance = 1e6; }, [](BakeOptions& o) { o.map_width = 1; }}) {
     BakeOptions options = small_options(8, 8, 4);
     set(options);
     EXPECT_NO_THROW((void)bake(plate_over_floor(), rect_light(1, 1), options));

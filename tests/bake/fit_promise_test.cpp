@@ -46,19 +46,27 @@ void expect_valid(const VertexCoding& coding, const std::vector<FunctionVertex>&
   ASSERT_TRUE(vertices.empty() || vertices.back().begin == vertices.back().end);
 }
 
+/// The epsilon that is promised: a mip level's means of counts are codes only within half of one.
+double promised_epsilon(const FitRules& rules) {
+  const bool is_level = rules.sample_count != rules.coding.value_max;
+  return rules.constant_pieces && is_level ? std::max(rules.epsilon, 0.5 / rules.coding.value_max)
+                                           : rules.epsilon;
+}
+
 void expect_within_tube(const View& view, const StepFunction& function, const FitRules& rules,
                         const std::vector<FunctionVertex>& vertices) {
+  const double epsilon = promised_epsilon(rules);
   const StepTruth truth(function, rules.sample_count);
   const double delta = rules.tolerance + depth_slack(view);
   for (const double z : critical_depths(view, rules.coding, vertices, truth, rules.tolerance)) {
     const double value = evaluate_function(view, rules.coding, vertices, z);
-    ASSERT_GE(value, truth.least(z, delta) - rules.epsilon - kValueSlack) << "z " << z;
-    ASSERT_LE(value, truth.greatest(z, delta) + rules.epsilon + kValueSlack) << "z " << z;
+    ASSERT_GE(value, truth.least(z, delta) - epsilon - kValueSlack) << "z " << z;
+    ASSERT_LE(value, truth.greatest(z, delta) + epsilon + kValueSlack) << "z " << z;
   }
   EXPECT_EQ(evaluate_function(view, rules.coding, vertices, view.near_depth), 0);
   // What a function holds behind far is V's last value, without any delta.
   const double held = evaluate_function(view, rules.coding, vertices, 10 * view.far_depth);
-  EXPECT_NEAR(held, truth.last(), rules.epsilon + kValueSlack);
+  EXPECT_NEAR(held, truth.last(), epsilon + kValueSlack);
 }
 
 class FitPromise : public testing::TestWithParam<double> {};
@@ -103,6 +111,29 @@ TEST_P(FitPromise, HoldsForACombOfTwentyThousandSteps) {
       expect_valid(rules.coding, vertices);
       expect_within_tube(view, function, rules, vertices);
       if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Counts up to 4^6 x 65536, of which a code is far less than one.
+TEST_P(FitPromise, HoldsForMipLevels) {
+  const View view = depth_view(1, 100);
+  Random random(15);
+  for (const std::uint32_t samples : kSampleCounts) {
+    for (const std::uint32_t level : {1u, 6u}) {
+      for (const double delta : {0.0, 0.02}) {
+        const FitRules rules = make_level_rules(make_fit_rules(view, samples, GetParam(), delta), level);
+        for (const Shape shape : kShapes) {
+          const StepFunction function = random_steps(random, shape, view, rules.sample_count, delta, 300);
+          if (function.depth.empty()) continue;
+          SCOPED_TRACE(testing::Message() << "N " << samples << ", level " << level << ", delta " << delta
+                                          << ", shape " << static_cast<int>(shape));
+          const std::vector<FunctionVertex> vertices = fit(function, rules);
+          expect_valid(rules.coding, vertices);
+          expect_within_tube(view, function, rules, vertices);
+          if (HasFatalFailure()) return;
+        }
+      }
     }
   }
 }

@@ -85,5 +85,36 @@ TEST(FitRules, BoundsLieWithinEpsilonLessAHalfCode) {
   }
 }
 
+/// The tables of level 0 are the formula; a level has the formula alone, which goes on up to 4^6 x 65536.
+TEST(FitRules, BoundsOfALevelLieWithinEpsilonOfTheMean) {
+  for (const std::uint32_t samples : {1u, 7u, 256u, 65535u, 65536u}) {
+    for (const double epsilon : {0.0, 1e-6, 0.002, 0.02, 0.9}) {
+      const FitRules base = rules_for(samples, epsilon, 0.1);
+      for (const std::uint32_t level : {1u, 3u, 6u}) {
+        const FitRules rules = make_level_rules(base, level);
+        ASSERT_EQ(rules.sample_count, samples << (2 * level));
+        ASSERT_EQ(rules.coding, base.coding);
+        ASSERT_TRUE(rules.lower.empty() && rules.upper.empty());
+        const double unit = 1.0 / (static_cast<double>(kValueScale) * rules.coding.value_max);
+        const double half = rules.constant_pieces ? 0 : 0.5 / rules.coding.value_max;
+        const double most = rules.constant_pieces ? std::max(epsilon, 0.5 / samples) : epsilon;
+        for (std::uint32_t n = 0; n <= 1000; ++n) {
+          const auto count = static_cast<std::uint32_t>(std::uint64_t{rules.sample_count} * n / 1000);
+          const double v = static_cast<double>(count) / rules.sample_count;
+          const double low = static_cast<double>(rules.lower_of(count)) * unit,
+                       high = static_cast<double>(rules.upper_of(count)) * unit;
+          ASSERT_TRUE(0 <= low && low <= high && high <= 1) << v;
+          ASSERT_TRUE(low == 0 || low >= v - most + half - 1e-12) << v;
+          ASSERT_TRUE(high == 1 || high <= v + most - half + 1e-12) << v;
+        }
+      }
+      for (std::uint32_t count = 0; count <= samples; ++count) {
+        ASSERT_EQ(base.lower_of(count), base.bounds_of(count).lower);
+        ASSERT_EQ(base.upper_of(count), base.bounds_of(count).upper);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pdsm::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same bytes for any number of threads, any tiling, any memory, and any order of samples and triangles.
+// The same bytes, of all mip levels, for any number of threads, any tiling, any memory, and any order of
+// samples and triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,6 +39,7 @@ BakeOptions options_for(const Grid& grid) {
   options.map_width = grid.map_width;
   options.map_height = grid.map_height;
   options.threads = 2;
+  options.mip_levels = 6;
   return options;
 }
 

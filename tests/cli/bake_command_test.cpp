@@ -125,6 +125,26 @@ TEST_F(BakeCommand, ReportHasItsKeys) {
   EXPECT_EQ(report["samples"], 16);
 }
 
+TEST_F(BakeCommand, MipLevelsAreMadeAndRecorded) {
+  const auto is_modelled = [](const nlohmann::json& record) {
+    for (const auto& feature : record["modelled"]) {
+      if (feature["feature"] == "mip levels") return feature["modelled"].get<bool>();
+    }
+    throw std::runtime_error("mip levels are not mentioned");
+  };
+  for (const auto& [asked, made] : {std::pair("0", 0U), std::pair("3", 3U), std::pair("6", 5U)}) {
+    bake_small("map.pdsm", {"--mip-levels", asked, "--report", "report.json"});
+    const PenumbraMap map = read_map(path("map.pdsm"));
+    EXPECT_EQ(map.images.size(), made + 1);
+    for (const auto& record :
+         {nlohmann::json::parse(contents("report.json")), nlohmann::json::parse(map.metadata)}) {
+      EXPECT_EQ(is_modelled(record), made > 0);
+    }
+    EXPECT_EQ(nlohmann::json::parse(contents("report.json"))["mip_levels"], made);
+    EXPECT_EQ(nlohmann::json::parse(map.metadata)["options"]["mip_levels"], made);
+  }
+}
+
 TEST_F(BakeCommand, ReportOfSeveralLightsNamesThem) {
   ASSERT_EQ(bake({"two.scene.json", "-o", "maps", "--quiet", "--report", "report.json"}).exit_code, 0);
   const auto report = nlohmann::json::parse(contents("report.json"));
@@ -133,9 +153,11 @@ TEST_F(BakeCommand, ReportOfSeveralLightsNamesThem) {
 }
 
 TEST_F(BakeCommand, SameInputSameBytes) {
-  bake_small("a.pdsm", {"--threads", "1"});
-  bake_small("b.pdsm", {"--threads", "3", "--tile", "64", "--report", "r.json"});
-  EXPECT_TRUE(contents("a.pdsm") == contents("b.pdsm"));
+  for (const std::string levels : {"0", "6"}) {
+    bake_small("a.pdsm", {"--mip-levels", levels, "--threads", "1"});
+    bake_small("b.pdsm", {"--mip-levels", levels, "--threads", "3", "--tile", "64", "--report", "r.json"});
+    EXPECT_TRUE(contents("a.pdsm") == contents("b.pdsm"));
+  }
 }
 
 TEST_F(BakeCommand, AThousandThreadsAreFine) {

@@ -18,6 +18,23 @@ TEST_F(Exchange, RoundTripIsExact) {
   EXPECT_EQ(diff.exit_code, 0) << diff.out << diff.err;
 }
 
+TEST_F(Exchange, MipLevelsGoThereAndBack) {
+  bake_small("mips.pdsm", {"--mip-levels", "6"});
+  EXPECT_EQ(run({"export", "mips.pdsm", "-o", "deep.exr"}).exit_code, 0);
+  EXPECT_EQ(run({"import", "deep.exr", "-o", "back.pdsm"}).exit_code, 0);
+  EXPECT_TRUE(contents("back.pdsm") == contents("mips.pdsm"));
+  const Outcome same = run({"diff", "mips.pdsm", "back.pdsm"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_NE(same.out.find("differing texels 0 of 1365"), std::string::npos) << same.out;
+  // Level 0 alone is another map.
+  const Outcome other = run({"diff", "mips.pdsm", "map.pdsm", "--tolerance", "1"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.out.find("mip levels"), std::string::npos) << other.out;
+  // Where the worst is, is told by level.
+  bake_small("rough.pdsm", {"--mip-levels", "6", "--epsilon", "0.1"});
+  EXPECT_NE(run({"diff", "mips.pdsm", "rough.pdsm"}).out.find(" level "), std::string::npos);
+}
+
 TEST_F(Exchange, RefusesBadFilesAndOutputs) {
   expect_exit(run({"export", "plate.obj", "-o", "x.exr"}), 3);
   expect_exit(run({"import", "map.pdsm", "-o", "x.pdsm"}), 3);

@@ -81,6 +81,10 @@ TEST_F(Usage, CountsAreStrict) {
       expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", option, value}), option, value);
     }
   }
+  for (const std::string value : {"7", "-1", "2x", "", "1e1", "0.5"}) {
+    expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--mip-levels", value}), "--mip-levels",
+                   value);
+  }
   expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--tile", "65"}), "--tile", "65");
   expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--tile", "0"}), "--tile", "0");
   expect_refused(run({"bake", "one.scene.json", "-o", "x.pdsm", "--threads", "1000000"}), "--threads", "");

@@ -38,6 +38,33 @@ TEST_F(Inspect, InfoJsonAddsUp) {
   EXPECT_GT(stored, 0U);
 }
 
+TEST_F(Inspect, InfoTellsLevelsApart) {
+  EXPECT_EQ(run({"info", "map.pdsm"}).out.find("level 0"), std::string::npos) << "one level says nothing";
+  bake_small("mips.pdsm", {"--mip-levels", "2"});
+  EXPECT_EQ(run({"check", "mips.pdsm"}).exit_code, 0);
+  const Outcome text = run({"info", "mips.pdsm"});
+  for (const char* word : {"level 0", "level 2", "1024 texels", "256 texels", "64 texels"}) {
+    EXPECT_NE(text.out.find(word), std::string::npos) << word << " in\n" << text.out;
+  }
+  const auto info = nlohmann::json::parse(run({"info", "mips.pdsm", "--json"}).out);
+  ASSERT_EQ(info["levels"].size(), 3U);
+  std::uint64_t texels = 0, pieces = 0, stored = 0, decoded = 0;
+  for (const auto& level : info["levels"]) {
+    texels += level["texels"].get<std::uint64_t>();
+    pieces += level["pieces"].get<std::uint64_t>();
+    stored += level["stored"].get<std::uint64_t>();
+    decoded += level["decoded"].get<std::uint64_t>();
+    EXPECT_GT(level["pieces"], 0);
+    EXPECT_GT(level["stored"], 0);
+    EXPECT_GT(level["decoded"], 0);
+  }
+  EXPECT_EQ(texels, 1024U + 256 + 64);
+  EXPECT_EQ(texels, info["functions"]["texels"]);
+  EXPECT_EQ(pieces, info["functions"]["pieces"]);
+  EXPECT_EQ(stored, info["bytes"]["parts"]["BLCK"]["stored"]);
+  EXPECT_EQ(decoded, info["bytes"]["parts"]["BLCK"]["decoded"]);
+}
+
 TEST_F(Inspect, CheckSaysOk) {
   const Outcome outcome = run({"check", "map.pdsm"});
   EXPECT_EQ(outcome.exit_code, 0);

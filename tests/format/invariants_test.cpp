@@ -115,6 +115,16 @@ TEST(Invariants, Images) {
   expect_fault("images:", [](PenumbraMap& map) { map.images.back().layer = 2; });
   expect_fault("images:", [](PenumbraMap& map) { map.images[1].width = 66; });
   expect_fault("images:", [](PenumbraMap& map) { map.images[1].height = 5; });
+  // A gap among the levels, of the first view and of the last.
+  expect_fault("images:", [](PenumbraMap& map) { map.images.erase(map.images.begin() + 1); });
+  expect_fault("images:", [](PenumbraMap& map) { map.images.erase(map.images.end() - 2); });
+}
+
+/// Fewer levels of one view than of another are no gap.
+TEST(Invariants, ImagesMayHaveFewerLevels) {
+  PenumbraMap map = valid_map();
+  map.images.erase(map.images.begin() + 2);
+  EXPECT_EQ(find_invariant_fault(map), "");
 }
 
 TEST(Invariants, Samples) {

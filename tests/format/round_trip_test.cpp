@@ -232,5 +232,16 @@ TEST(RoundTrip, ListsChunks) {
   EXPECT_EQ(chunks[2].stored_bytes, map.metadata.size());
 }
 
+TEST(RoundTrip, ListsTheImagesOfBlocks) {
+  MapShape shape;
+  shape.width = 70;
+  shape.levels = 3;
+  std::vector<std::uint32_t> images;
+  for (const ChunkSummary& chunk : list_chunks(serialize_map(random_map(12, shape), kRaw))) {
+    if (chunk.type == "BLCK") images.push_back(chunk.image);
+  }
+  EXPECT_EQ(images, (std::vector<std::uint32_t>{0, 0, 1, 2}));
+}
+
 }  // namespace
 }  // namespace pdsm

@@ -6,16 +6,17 @@ namespace pdsm::test {
 BakedFunctions::BakedFunctions(const Scene& scene, const Light& light, const BakeOptions& options)
     : baked_(bake(scene, light, options)), map_(decode_blocks(baked_)) {}
 
-BakedFunctions::Place BakedFunctions::place(std::uint32_t i, std::uint32_t j) const {
-  const FunctionImage& image = map_.images[0];
+BakedFunctions::Place BakedFunctions::place(std::uint32_t i, std::uint32_t j, std::uint32_t level) const {
+  const FunctionImage& image = map_.images[level];
   const std::uint32_t bx = i / kBlockSize, by = j / kBlockSize;
   const std::uint32_t width = block_extent(image.width, image.height, bx, by)[0];
   return {&image.blocks[std::size_t{by} * image.blocks_across() + bx],
           j % kBlockSize * width + i % kBlockSize};
 }
 
-std::vector<FunctionVertex> BakedFunctions::function(std::uint32_t i, std::uint32_t j) const {
-  const Place p = place(i, j);
+std::vector<FunctionVertex> BakedFunctions::function(std::uint32_t i, std::uint32_t j,
+                                                     std::uint32_t level) const {
+  const Place p = place(i, j, level);
   return unpack_function(map_.coding, *p.block, p.texel);
 }
 
@@ -24,9 +25,15 @@ double BakedFunctions::value(std::uint32_t i, std::uint32_t j, double z) const {
 }
 
 double BakedFunctions::domain_end(std::uint32_t i, std::uint32_t j) const {
-  const Place p = place(i, j);
-  return p.block->domain_end.empty() ? view().far_depth
-                                     : decode_depth(view(), map_.coding, p.block->domain_end[p.texel]);
+  const std::optional<std::uint32_t> code = end_code(i, j);
+  return code ? decode_depth(view(), map_.coding, *code) : view().far_depth;
+}
+
+std::optional<std::uint32_t> BakedFunctions::end_code(std::uint32_t i, std::uint32_t j,
+                                                      std::uint32_t level) const {
+  const Place p = place(i, j, level);
+  if (p.block->domain_end.empty()) return std::nullopt;
+  return p.block->domain_end[p.texel];
 }
 
 double BakedFunctions::slope_x(std::uint32_t i) const {

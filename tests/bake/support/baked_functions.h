@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pdsm/bake/bake.h"
@@ -18,11 +19,15 @@ class BakedFunctions {
   [[nodiscard]] const BakeReport& report() const { return baked_.report; }
   [[nodiscard]] const View& view() const { return map_.views[0]; }
 
-  [[nodiscard]] std::vector<FunctionVertex> function(std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] std::vector<FunctionVertex> function(std::uint32_t i, std::uint32_t j,
+                                                     std::uint32_t level = 0) const;
   /// V' of a texel's own function.
   [[nodiscard]] double value(std::uint32_t i, std::uint32_t j, double z) const;
   /// End of a texel's domain as it is stored, metres; far if there is none.
   [[nodiscard]] double domain_end(std::uint32_t i, std::uint32_t j) const;
+  /// The same as a depth code; empty if there is none.
+  [[nodiscard]] std::optional<std::uint32_t> end_code(std::uint32_t i, std::uint32_t j,
+                                                      std::uint32_t level = 0) const;
   /// Slope of a texel's central ray.
   [[nodiscard]] double slope_x(std::uint32_t i) const;
   [[nodiscard]] double slope_y(std::uint32_t j) const;
@@ -36,7 +41,7 @@ class BakedFunctions {
     const FunctionBlock* block;
     std::uint32_t texel;
   };
-  [[nodiscard]] Place place(std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] Place place(std::uint32_t i, std::uint32_t j, std::uint32_t level) const;
 
   BakedMap baked_;
   PenumbraMap map_;

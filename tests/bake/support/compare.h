@@ -33,13 +33,20 @@ namespace pdsm::test {
   return a.report().depth_tolerance + b.report().depth_tolerance + 0x1.0p-20 * a.view().far_depth;
 }
 
-/// All encoded blocks are the same, byte for byte.
-inline void expect_same_bytes(const BakedFunctions& a, const BakedFunctions& b) {
-  ASSERT_EQ(a.baked().blocks[0].size(), b.baked().blocks[0].size());
-  for (std::size_t n = 0; n < a.baked().blocks[0].size(); ++n) {
-    EXPECT_TRUE(a.baked().blocks[0][n].bytes == b.baked().blocks[0][n].bytes) << "block " << n;
-    EXPECT_EQ(a.baked().blocks[0][n].encoding, b.baked().blocks[0][n].encoding) << "block " << n;
+/// All encoded blocks of a level are the same, byte for byte.
+inline void expect_same_level(const BakedFunctions& a, const BakedFunctions& b, std::size_t level) {
+  const auto &x = a.baked().blocks[level], &y = b.baked().blocks[level];
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    EXPECT_TRUE(x[n].bytes == y[n].bytes) << "level " << level << ", block " << n;
+    EXPECT_EQ(x[n].encoding, y[n].encoding) << "level " << level << ", block " << n;
   }
+}
+
+/// The same of all levels.
+inline void expect_same_bytes(const BakedFunctions& a, const BakedFunctions& b) {
+  ASSERT_EQ(a.baked().blocks.size(), b.baked().blocks.size());
+  for (std::size_t level = 0; level < a.baked().blocks.size(); ++level) expect_same_level(a, b, level);
 }
 
 /// Largest attenuation that any texel holds anywhere.

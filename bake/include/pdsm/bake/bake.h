@@ -35,6 +35,11 @@ enum class PointSet {
   jittered  ///< the thesis' stratified jitter
 };
 
+/// Levels above 0 that a mip chain may have: one texel of the last is one block, so that a level's texel
+/// never needs the functions of two.
+inline constexpr std::uint32_t kMostMipLevels = 6;
+static_assert(1U << kMostMipLevels == kBlockSize);
+
 struct BakeOptions {
   std::uint32_t samples = 256;                  ///< N, 1 .. 65536
   std::uint32_t width = 512, height = 512;      ///< texels of the map, 1 .. 16384
@@ -46,6 +51,8 @@ struct BakeOptions {
   Walk walk = Walk::exact;
   Receivers receivers = Receivers::volume;
   PointSet points = PointSet::lattice;
+  std::uint32_t mip_levels = 0;  ///< levels above 0 (penumbra_map.h, FunctionImage), 0 .. kMostMipLevels;
+                                 ///< no more are made than the map's smaller side can be halved
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that baking may take beyond scene and BVH
   std::uint32_t threads = 0;                      ///< 0: all processors
   std::uint64_t seed = 0;
@@ -74,7 +81,9 @@ struct ModelledFeature {
 struct BakeReport {
   double seconds_bvh = 0, seconds_trace = 0, seconds_walk = 0, seconds_accumulate = 0, seconds_fit = 0,
          seconds_total = 0;
-  std::uint64_t rays = 0, events = 0, texels = 0, pieces = 0, empty_texels = 0, tiles = 0;
+  std::uint64_t rays = 0, events = 0, tiles = 0;
+  std::uint64_t texels = 0, pieces = 0, empty_texels = 0;  ///< of level 0
+  std::uint32_t mip_levels = 0;                            ///< above 0, that were made
   std::uint64_t peak_event_bytes = 0;
   std::uint64_t resident_after_bvh = 0;  ///< bytes resident in memory when the BVH stood
   std::uint32_t map_width = 0, map_height = 0, samples = 0, tile = 0;
@@ -98,8 +107,8 @@ struct BakeCallbacks {
   std::function<bool()> cancelled;                    ///< polled; true ends the bake with Error(interrupted)
 };
 
-/// A baked map. `map.images[0].blocks` are empty and `blocks[0]` holds them encoded, ready for
-/// write_encoded_map; decode_blocks() fills the map in.
+/// A baked map: image n is level n. `map.images[n].blocks` are empty and `blocks[n]` holds them encoded,
+/// ready for write_encoded_map; decode_blocks() fills the map in.
 struct BakedMap {
   PenumbraMap map;
   std::vector<std::vector<EncodedBlock>> blocks;

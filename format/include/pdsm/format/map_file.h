@@ -37,7 +37,8 @@ struct FileFault {
 
 /// What one chunk of a file takes.
 struct ChunkSummary {
-  std::string type;  ///< four letters
+  std::string type;         ///< four letters
+  std::uint32_t image = 0;  ///< that a BLCK chunk is of; else 0
   std::uint64_t stored_bytes = 0, decoded_bytes = 0;
 };
 

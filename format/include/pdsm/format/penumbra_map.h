@@ -99,6 +99,14 @@ struct FunctionBlock {
 };
 
 /// All functions of one (layer, view, mip level): blocks row by row.
+///
+/// Level l is for look-ups whose footprint is 2^l texels wide. Its texel (i, j) holds the mean, at each
+/// depth, of the functions of the 2^l x 2^l texels (i 2^l, j 2^l) .. ((i + 1) 2^l - 1, (j + 1) 2^l - 1) of
+/// level 0, each held behind its own end of domain; its end of domain is the greatest of theirs. What
+/// 2^l x 2^l texels at a time leave over at the right and upper border is in no mean (of an axis of fewer
+/// than 2^l texels, all are). A position of u texels
+/// of level 0 from the lower corner is u / 2^l texels of level l from there, and what lies behind the centre
+/// of the last texel is clamped to it, as at any border.
 struct FunctionImage {
   std::uint32_t layer = 0, view = 0, level = 0;
   std::uint32_t width = 0, height = 0;  ///< texels; of level l: max(1, view size >> l)
@@ -113,8 +121,8 @@ struct FunctionImage {
 /// the two attenuations; it lies between these two rules.
 enum class LayerRule : std::uint32_t { maximum = 0, clamped_sum = 1 };
 
-/// A penumbra deep shadow map. Images are ordered by layer, view, level; each (layer, view, level)
-/// appears once, level 0 always.
+/// A penumbra deep shadow map. Images are ordered by layer, view, level; each layer and view has levels
+/// 0, 1, ... without a gap, each once.
 struct PenumbraMap {
   std::vector<View> views;  ///< 1 or more
   std::vector<std::string> layers{"static"};

@@ -39,8 +39,8 @@ class PenumbraLookUp {
   explicit PenumbraLookUp(const PenumbraMap& map);
 
   /// Attenuation at a world point (metres). A point on the border of the window is inside. `footprint`:
-  /// metres between neighbouring look-ups, >= 0; from one texel on, maps with mip levels are asked at the two
-  /// levels around it, blended.
+  /// metres between neighbouring look-ups, >= 0; from 1.7 texels on (docs/runtime.md), maps with mip levels
+  /// are asked at the two levels around it, blended.
   [[nodiscard]] LookUpResult at(const std::array<double, 3>& world_point, Filter filter,
                                 double footprint = 0) const;
 

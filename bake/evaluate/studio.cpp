@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/studio.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "truth/light_points.h"
+
+namespace pdsm {
+namespace {
+
+constexpr std::array<glm::vec3, 4> kTints{
+    {{1.0F, 0.955F, 0.88F}, {0.80F, 0.89F, 1.0F}, {1.0F, 0.84F, 0.72F}, {0.90F, 1.0F, 0.92F}}};
+
+double smooth_step(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+}  // namespace
+
+glm::vec3 studio_colour(std::size_t index, std::size_t count) {
+  const auto lights = static_cast<double>(std::max<std::size_t>(1, count));
+  const auto share = static_cast<float>(std::pow(lights, -0.8));
+  return kStudioKeyStrength * share * kTints[index % kTints.size()];
+}
+
+StudioLight make_studio_light(const Light& light, const Focus& focus, const glm::vec3& colour) {
+  const RigidTransform light_to_world = inverse(light_frame(light));
+  StudioLight studio;
+  studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - apply(light_to_world, glm::dvec3(0));
+  std::size_t n = 0;
+  for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
+    for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
+      const std::array<double, 2> p = light_point(light, {u, v});
+      studio.points[n++] = apply(light_to_world, glm::dvec3(p[0], p[1], 0));
+    }
+  }
+  const glm::dvec3& centre = studio.points[studio.points.size() / 2];
+  float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(centre - focus.centre)));
+  if (!(reference > 0)) {
+    const glm::dvec3 in_front = centre + 2 * focus.radius * studio.direction;
+    reference = irradiance(studio, in_front, glm::vec3(-studio.direction));
+  }
+  studio.colour = colour / reference;
+  return studio;
+}
+
+float irradiance(const StudioLight& light, const glm::dvec3& position, const glm::vec3& normal) {
+  double sum = 0;
+  for (const glm::dvec3& on_light : light.points) {
+    const glm::dvec3 to_light = on_light - position;
+    const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
+    const double at_surface = glm::dot(glm::dvec3(normal), to_light),
+                 at_light = -glm::dot(light.direction, to_light);
+    if (at_surface > 0 && at_light > 0) sum += at_surface * at_light / (squared * squared);
+  }
+  return static_cast<float>(sum / static_cast<double>(light.points.size()));
+}
+
+glm::vec3 studio_background(const glm::dvec3& direction) {
+  const double height = smooth_step(0.0, kStudioZenithHeight, direction.y);
+  return glm::mix(kStudioHorizon, kStudioZenith, static_cast<float>(height));
+}
+
+float studio_fade(const Focus& focus, const glm::dvec3& position) {
+  const double away = glm::distance(position, focus.centre) / focus.radius;
+  return static_cast<float>(smooth_step(kStudioFadeBegin, kStudioFadeEnd, away));
+}
+
+}  // namespace pdsm

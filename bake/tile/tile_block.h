@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fit/tube.h"
+#include "pdsm/format/penumbra_map.h"
+#include "trace/sample_map.h"
+#include "walk/ray_packets.h"
+
+namespace pdsm {
+
+/// One block of the tile, with all that its rays need.
+struct TileBlock {
+  TexelRect rect;           ///< texels of the map
+  std::uint32_t index = 0;  ///< in the map
+  std::vector<float> domain_ends;
+  std::vector<RayPacket> packets;            ///< by the shift law only
+  std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
+};
+
+/// The functions of one block.
+struct FittedBlock {
+  std::uint32_t index = 0;              ///< in the map
+  std::uint32_t width = 0, height = 0;  ///< texels
+  /// levels[0] is the block; levels[l] has its width >> l x height >> l texels of mip level l, row by row.
+  std::vector<FunctionBlock> levels;
+};
+
+}  // namespace pdsm
