@@ -18,14 +18,6 @@ Point to_view(const View& view, const Point& p) {
   return q;
 }
 
-Point to_world(const View& view, const Point& p) {
-  const auto& r = view.world_to_view.rotation;
-  const auto& t = view.world_to_view.translation;
-  const Point q{p[0] - t[0], p[1] - t[1], p[2] - t[2]};
-  return {r[0] * q[0] + r[3] * q[1] + r[6] * q[2], r[1] * q[0] + r[4] * q[1] + r[7] * q[2],
-          r[2] * q[0] + r[5] * q[1] + r[8] * q[2]};
-}
-
 /// Depth of some vertex of the view's functions, or far.
 double vertex_depth(Random& random, const PenumbraMap& map, std::uint32_t view) {
   const FunctionImage& image = *std::find_if(map.images.begin(), map.images.end(),
@@ -84,6 +76,14 @@ double largest_coordinate(const PenumbraMap& map, const Point& p) {
 }
 
 }  // namespace
+
+Point to_world(const View& view, const Point& p) {
+  const auto& r = view.world_to_view.rotation;
+  const auto& t = view.world_to_view.translation;
+  const Point q{p[0] - t[0], p[1] - t[1], p[2] - t[2]};
+  return {r[0] * q[0] + r[3] * q[1] + r[6] * q[2], r[1] * q[0] + r[4] * q[1] + r[7] * q[2],
+          r[2] * q[0] + r[5] * q[1] + r[8] * q[2]};
+}
 
 std::vector<FloatPoint> points_to_try(Random& random, const PenumbraMap& map, std::size_t count) {
   std::vector<FloatPoint> points;

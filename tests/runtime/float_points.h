@@ -10,6 +10,9 @@
 /// Points to hold a shader to the look-up on the CPU, and what the look-up allows there.
 namespace pdsm::testing {
 
+/// A point of view space in the world.
+[[nodiscard]] std::array<double, 3> to_world(const View& view, const std::array<double, 3>& p);
+
 /// A position as a shader gets it.
 using FloatPoint = std::array<float, 3>;
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "random_map.h"
+#include "float_points.h"
 
 namespace pdsm {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 using testing::MapShape;
 using testing::Random;
 using testing::random_map;
+using testing::to_world;
 
 using Point = std::array<double, 3>;
 
@@ -78,15 +79,6 @@ Point random_point(Random& random, const View& view) {
   return window_point(
       view, random.real(0, 1), random.real(0, 1),
       random.real(view.near_depth, view.far_depth + 0.1 * (view.far_depth - view.near_depth)));
-}
-
-/// Inverse of the view's motion.
-Point to_world(const View& view, const Point& p) {
-  const auto& r = view.world_to_view.rotation;
-  const auto& t = view.world_to_view.translation;
-  const Point q{p[0] - t[0], p[1] - t[1], p[2] - t[2]};
-  return {r[0] * q[0] + r[3] * q[1] + r[6] * q[2], r[1] * q[0] + r[4] * q[1] + r[7] * q[2],
-          r[2] * q[0] + r[5] * q[1] + r[8] * q[2]};
 }
 
 TEST(LookUp, AgreesWithThePlainEvaluationForEveryCoding) {
