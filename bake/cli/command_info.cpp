@@ -151,7 +151,7 @@ std::string plain(const Json& value) {
 std::string metadata_text(const Json& metadata) {
   std::string text;
   for (const char* key :
-       {"light", "options", "epsilon", "depth_tolerance", "bias", "isa", "tool", "input_hash"}) {
+       {"light", "options", "epsilon", "depth_tolerance", "bias", "achieved", "isa", "tool", "input_hash"}) {
     if (!metadata.is_object() || !metadata.contains(key)) continue;
     text += fmt::format("{:<10} ", key);
     const Json& value = metadata[key];
@@ -173,8 +173,10 @@ std::string modelled_text(const Json& metadata) {
   for (const Json& feature : metadata["modelled"]) {
     if (!feature.is_object()) continue;
     const bool modelled = feature.value("modelled", Json(false)) == Json(true);
-    text += fmt::format("{} {}: {}\n", modelled ? "modelled  " : "left out  ",
-                        plain(feature.value("feature", Json(""))), plain(feature.value("reason", Json(""))));
+    const std::string saved = plain(feature.value("saved", Json("")));
+    text += fmt::format("{} {}: {}{}\n", modelled ? "modelled  " : "left out  ",
+                        plain(feature.value("feature", Json(""))), plain(feature.value("reason", Json(""))),
+                        saved.empty() ? "" : " (saves " + saved + ")");
   }
   return text;
 }

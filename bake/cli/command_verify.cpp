@@ -8,8 +8,10 @@
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/options.h"
+#include "cli/recorded_options.h"
 #include "cli/streams.h"
-#include "evaluate/verify.h"
+#include "cli/verify_report.h"
+#include "evaluate/window_errors.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/map_file.h"
 
@@ -17,39 +19,12 @@ namespace pdsm {
 namespace {
 
 struct VerifyCommand {
-  std::string map, scene;
+  std::string map, scene, heat_map;
   VerifyOptions options;
+  std::uint32_t heat_map_samples = 256;
   std::optional<double> max_error;
-  bool json = false;
+  bool json = false, no_budget = false;
 };
-
-std::string as_json(const VerifyResult& result) {
-  nlohmann::ordered_json json;
-  json["points"] = result.points;
-  json["shadowed_points"] = result.shadowed_points;
-  json["mean_abs_error"] = result.mean_abs_error;
-  json["rms_error"] = result.rms_error;
-  json["p99_error"] = result.p99_error;
-  json["max_error"] = result.max_error;
-  json["bias"] = result.bias;
-  json["truth_standard_error"] = result.truth_standard_error;
-  json["past_end"] = result.past_end;
-  return json.dump(2) + "\n";
-}
-
-std::string as_text(const VerifyResult& result) {
-  return fmt::format(
-      "points                {} ({} on surfaces, {} in shadow, {} past the end)\n"
-      "mean abs error        {:.5f} (on surfaces {:.5f}, in free space {:.5f})\n"
-      "rms error             {:.5f}\n"
-      "p99 error             {:.5f}\n"
-      "max error             {:.5f}\n"
-      "bias                  {:+.5f}\n"
-      "truth standard error  {:.5f}\n",
-      result.points, result.surface_points, result.shadowed_points, result.past_end, result.mean_abs_error,
-      result.surface_error, result.free_error, result.rms_error, result.p99_error, result.max_error,
-      result.bias, result.truth_standard_error);
-}
 
 /// Whether the map's own record says that it is exact on surfaces alone.
 bool is_for_surfaces(const PenumbraMap& map) {
@@ -58,20 +33,66 @@ bool is_for_surfaces(const PenumbraMap& map) {
   return options != metadata.end() && options->is_object() && options->value("receivers", "") == "surfaces";
 }
 
+/// What the budget needs for baking again; nothing with --no-budget.
+std::optional<BakeOptions> options_for_budget(const VerifyCommand& command, const PenumbraMap& map,
+                                              const Scene& scene, const Light& light) {
+  if (command.no_budget) return std::nullopt;
+  const auto refuse = [&command](const std::string& field, const std::string& reason) {
+    throw Error(Failure::input, command.map + ":" + field, reason + ": only --no-budget can measure it");
+  };
+  if (changed_since_bake(scene, map)) refuse("input_hash", "the scene has changed since the bake");
+  std::optional<BakeOptions> options = recorded_options(map, light);
+  if (!options) refuse("options", "the map does not tell how it was baked");
+  return options;
+}
+
+/// Atty et al.'s error takes as many texels of the window as points.
+double measure_atty_error(const PenumbraMap& map, const Scene& scene, const Light& light,
+                          const VerifyOptions& options) {
+  const auto texels = draw_texels(map.views.front(), options.points, options.seed);
+  return atty_error(measure_texels(map, scene, light, texels, options.samples, options.seed));
+}
+
+void write_heat_map(const VerifyCommand& command, const PenumbraMap& map, const Scene& scene,
+                    const Light& light) {
+  const View& view = map.views.front();
+  const std::vector<TexelError> errors =
+      measure_texels(map, scene, light, all_texels(view), command.heat_map_samples, command.options.seed);
+  if (image_format(command.heat_map, "--heat-map") == ImageFormat::png)
+    write_png(draw_window_errors(view.width, view.height, errors), command.heat_map);
+  else
+    write_exr(view.width, view.height, {window_error_plane(view.width, view.height, errors)},
+              command.heat_map);
+}
+
+/// Sees that the picture can be written, before anything is measured for it.
+void check_heat_map(const VerifyCommand& command) {
+  if (command.heat_map.empty()) return;
+  (void)image_format(command.heat_map, "--heat-map");
+  std::vector<std::filesystem::path> inputs = scene_inputs(command.scene);
+  inputs.emplace_back(command.map);
+  check_output(command.heat_map, inputs);
+}
+
 int run_verify(const VerifyCommand& command) {
+  check_heat_map(command);
   const PenumbraMap map = read_map(command.map);
   const Scene scene = read_scene(command.scene);
   const Light& light = light_of_map(scene, map, 0, command.map);
-  warn_if_changed(scene, map, command.map);
+  if (command.no_budget) warn_if_changed(scene, map, command.map);
+  const std::optional<BakeOptions> bake_options = options_for_budget(command, map, scene, light);
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);
-  const VerifyResult result = verify(map, scene, light, options);
-  if (result.points < command.options.points) {
+  const ProbedTruth truth = probe_truth(map, scene, light, options);
+  VerifyReport report{verify(map, truth), measure_atty_error(map, scene, light, options), {}};
+  if (report.result.points < options.points) {
     write_warning(
-        fmt::format("only {} of {} points found in the window", result.points, command.options.points));
+        fmt::format("only {} of {} points found in the window", report.result.points, options.points));
   }
-  write_result(command.json ? as_json(result) : as_text(result));
-  const bool holds = !command.max_error || result.mean_abs_error <= *command.max_error;
+  if (bake_options) report.budget = measure_error_budget(map, scene, light, *bake_options, truth);
+  if (!command.heat_map.empty()) write_heat_map(command, map, scene, light);
+  write_result(command.json ? verify_json(report) : verify_text(report));
+  const bool holds = !command.max_error || report.result.mean_abs_error <= *command.max_error;
   return holds ? kExitOk : kExitDoesNotHold;
 }
 
@@ -79,14 +100,21 @@ int run_verify(const VerifyCommand& command) {
 
 void add_verify_command(CLI::App& app, Run& run) {
   auto command = std::make_shared<VerifyCommand>();
-  CLI::App& sub = *app.add_subcommand("verify", "Error of a map against shadow rays");
+  CLI::App& sub = *app.add_subcommand("verify", "Error of a map against shadow rays, and what it is made of");
   add_file(sub, "FILE", command->map, "Map");
   add_file(sub, "SCENE", command->scene, "Scene file that it was baked from");
   add_count(sub, "--points", command->options.points, 1, 100'000'000,
             "Points, half on surfaces and half in free space; default 4000");
   add_count(sub, "--samples", command->options.samples, 2, std::uint64_t{1} << 24,
             "Shadow rays a point; default 4096");
+  add_count(sub, "--seed", command->options.seed, 0, ~std::uint64_t{0}, "Other points; default 0");
   add_real(sub, "--max-error", command->max_error, 0, 1, "Exit 1 when mean_abs_error is above it");
+  sub.add_flag("--no-budget", command->no_budget, "Leave the error budget out, which takes two bakes");
+  sub.add_option("--heat-map", command->heat_map,
+                 "Write |error| over the window; EXR: look-up - truth, signed")
+      ->type_name("IMAGE.png|.exr");
+  add_count(sub, "--heat-map-samples", command->heat_map_samples, 1, std::uint64_t{1} << 24,
+            "Shadow rays a texel of the heat map; default 256");
   sub.add_flag("--json", command->json, "Print JSON");
   sub.callback([command, &run] { run = [command] { return run_verify(*command); }; });
 }

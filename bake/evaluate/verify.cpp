@@ -5,49 +5,26 @@
 #include <cmath>
 #include <vector>
 
-#include "evaluate/probe_points.h"
-#include "pdsm/format/error.h"
 #include "pdsm/runtime/look_up.h"
-#include "truth/random.h"
-#include "truth/shadow_rays.h"
 
 namespace pdsm {
 namespace {
 
-// Each use of randomness has its own stream of the seed.
-enum Stream : std::uint64_t { kSurface, kFree, kTruthA, kTruthB };
-
-/// The truth in two independent halves: their mean is the truth, their difference tells its error.
-struct Truth {
-  std::vector<double> a, b;
-  [[nodiscard]] double value(std::size_t i) const { return 0.5 * (a[i] + b[i]); }
-  [[nodiscard]] double squared_error(std::size_t i) const { return 0.25 * (a[i] - b[i]) * (a[i] - b[i]); }
-};
-
-Truth trace_truth(const Scene& scene, const Light& light, double near_depth,
-                  const std::vector<glm::dvec3>& probes, const VerifyOptions& options) {
-  const ShadowRays rays(scene, light, near_depth);
-  const std::uint32_t half = std::max(1U, options.samples / 2);
-  return {rays.attenuations(probes, half, hash_bits(options.seed, kTruthA)),
-          rays.attenuations(probes, half, hash_bits(options.seed, kTruthB))};
-}
-
 /// Errors at all probes; counts what the look-ups said.
-std::vector<double> look_up_errors(const PenumbraMap& map, const std::vector<glm::dvec3>& probes,
-                                   const Truth& truth, VerifyResult& result) {
+std::vector<double> look_up_errors(const PenumbraMap& map, const ProbedTruth& truth, VerifyResult& result) {
   const PenumbraLookUp look_up(map);
-  std::vector<double> errors(probes.size());
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    const LookUpResult found = look_up.at({probes[i].x, probes[i].y, probes[i].z}, Filter::bilinear);
+  std::vector<double> errors(truth.points.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const glm::dvec3& p = truth.points[i];
+    const LookUpResult found = look_up.at({p.x, p.y, p.z}, Filter::bilinear);
     errors[i] = static_cast<double>(found.attenuation) - truth.value(i);
     result.past_end += found.status == PointStatus::past_end ? 1 : 0;
-    result.shadowed_points += truth.value(i) > 0 ? 1 : 0;
   }
   return errors;
 }
 
 /// Sum of |error| over points first .. last - 1, divided by how many of them are in shadow.
-double mean_abs_error(const std::vector<double>& errors, const Truth& truth, std::size_t first,
+double mean_abs_error(const std::vector<double>& errors, const ProbedTruth& truth, std::size_t first,
                       std::size_t last) {
   double sum = 0, shadowed = 0;
   for (std::size_t i = first; i < last; ++i) {
@@ -57,7 +34,7 @@ double mean_abs_error(const std::vector<double>& errors, const Truth& truth, std
   return sum / std::max(1.0, shadowed);
 }
 
-void summarise(std::vector<double> errors, const Truth& truth, VerifyResult& result) {
+void summarise(std::vector<double> errors, const ProbedTruth& truth, VerifyResult& result) {
   if (errors.empty()) return;
   double sum_squares = 0, sum = 0, sum_truth = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -84,19 +61,15 @@ void summarise(std::vector<double> errors, const Truth& truth, VerifyResult& res
 
 VerifyResult verify(const PenumbraMap& map, const Scene& scene, const Light& light,
                     const VerifyOptions& options) {
-  if (map.views.size() != 1) throw Error(Failure::input, "views", "only maps of one view can be verified");
-  const std::uint32_t on_surfaces = options.free_space ? (options.points + 1) / 2 : options.points;
-  std::vector<glm::dvec3> probes =
-      surface_probes(scene, map.views.front(), on_surfaces, hash_bits(options.seed, kSurface));
-  VerifyResult result;
-  result.surface_points = probes.size();
-  const std::vector<glm::dvec3> in_air =
-      free_probes(map, options.points - on_surfaces, hash_bits(options.seed, kFree));
-  probes.insert(probes.end(), in_air.begin(), in_air.end());
-  result.points = probes.size();
+  return verify(map, probe_truth(map, scene, light, options));
+}
 
-  const Truth truth = trace_truth(scene, light, map.views.front().near_depth, probes, options);
-  summarise(look_up_errors(map, probes, truth, result), truth, result);
+VerifyResult verify(const PenumbraMap& map, const ProbedTruth& truth) {
+  VerifyResult result;
+  result.points = truth.points.size();
+  result.surface_points = truth.surface_points;
+  result.shadowed_points = truth.shadowed_points();
+  summarise(look_up_errors(map, truth, result), truth, result);
   return result;
 }
 

@@ -3,17 +3,11 @@
 
 #include <cstdint>
 
+#include "evaluate/probed_truth.h"
 #include "pdsm/bake/scene.h"
 #include "pdsm/format/penumbra_map.h"
 
 namespace pdsm {
-
-struct VerifyOptions {
-  std::uint32_t points = 4000;   ///< half on surfaces, half in free space; >= 1
-  bool free_space = true;        ///< false: all on surfaces, for maps that are exact there alone
-  std::uint32_t samples = 4096;  ///< shadow rays a point; >= 2
-  std::uint64_t seed = 0;
-};
 
 /// How far a map is from the truth. An error is look-up (bilinear) minus truth. Means are sums over all
 /// points divided by the number of points in true shadow, so that false shadow on lit points counts in full
@@ -37,5 +31,8 @@ struct VerifyResult {
 /// depend on their number. Throws Error (input) for maps of several views.
 [[nodiscard]] VerifyResult verify(const PenumbraMap& map, const Scene& scene, const Light& light,
                                   const VerifyOptions& options = {});
+
+/// The same at points of which the truth is known already, from probe_truth() for this map.
+[[nodiscard]] VerifyResult verify(const PenumbraMap& map, const ProbedTruth& truth);
 
 }  // namespace pdsm

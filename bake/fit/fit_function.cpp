@@ -26,10 +26,10 @@ ConstantTail find_constant_tail(const std::vector<TubeRun>& tube) {
   return tail;
 }
 
-/// A value in scaled codes as a code: nearest, but within [low, high] scaled.
-std::uint32_t to_code(double value, std::int64_t low, std::int64_t high) {
-  const std::int64_t least = (low + kValueScale - 1) / kValueScale, greatest = high / kValueScale;
-  const std::int64_t code = std::llround(value / static_cast<double>(kValueScale));
+/// A scaled value as a code of `scale` scaled values: nearest, but within [low, high] scaled.
+std::uint32_t to_code(double value, std::int64_t low, std::int64_t high, std::int64_t scale) {
+  const std::int64_t least = (low + scale - 1) / scale, greatest = high / scale;
+  const std::int64_t code = std::llround(value / static_cast<double>(scale));
   // Between the bounds there may be no whole code: the bounds leave room for rounding to the nearest then.
   return static_cast<std::uint32_t>(least <= greatest ? std::clamp(code, least, greatest) : code);
 }
@@ -70,7 +70,7 @@ class FunctionFit {
     }
     const std::int64_t end = tube_[r].begin;
     const PieceLine line = least_squares_line(function_, rules_, at, end, segment_);
-    append_vertex(at, to_code((line.begin + line.end) / 2, low, high));
+    append_vertex(at, code_of((line.begin + line.end) / 2, low, high));
     run_ = r;
     return end;
   }
@@ -84,12 +84,15 @@ class FunctionFit {
     const std::size_t first = run_;
     const std::int64_t end = reach(at);
     const PieceLine line = choose_line(at, end, first);
-    vertices_.push_back({static_cast<std::uint32_t>(at), to_code(line.begin, 0, max_value()),
-                         to_code(line.end, 0, max_value())});
+    vertices_.push_back({static_cast<std::uint32_t>(at), code_of(line.begin, 0, max_value()),
+                         code_of(line.end, 0, max_value())});
     return end;
   }
 
-  [[nodiscard]] std::int64_t max_value() const { return kValueScale * std::int64_t{rules_.coding.value_max}; }
+  [[nodiscard]] std::int64_t max_value() const { return kValueScale * std::int64_t{rules_.value_codes}; }
+  [[nodiscard]] std::uint32_t code_of(double value, std::int64_t low, std::int64_t high) const {
+    return to_code(value, low, high, rules_.code_scale);
+  }
 
   /// Collects windows from `at` on until no line passes the next; leaves run_ at the run that holds the
   /// end, and lines_ with a last window at the end.
@@ -155,7 +158,7 @@ class FunctionFit {
     }
     const double last = static_cast<double>(max_value()) * function_.count.back() / rules_.sample_count;
     const std::uint32_t value =
-        to_code(std::clamp(last, static_cast<double>(low), static_cast<double>(high)), low, high);
+        code_of(std::clamp(last, static_cast<double>(low), static_cast<double>(high)), low, high);
     if (vertices_.empty() && value == 0) return;
     append_vertex(at, value);
   }

@@ -39,7 +39,7 @@ void choose_depth_coding(const View& view, double depth_tolerance, FitRules& rul
 
 void choose_bounds(FitRules& rules) {
   const auto scale = static_cast<double>(kValueScale);
-  rules.half_width = scale * rules.coding.value_max * rules.epsilon;
+  rules.half_width = scale * rules.value_codes * rules.epsilon;
   rules.quantum = scale / 2 + kRoundingSlack;
   if (!rules.constant_pieces) return;
   // Counts are codes already; what lies between two has the nearest.
@@ -63,10 +63,18 @@ FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double eps
   rules.sample_count = sample_count;
   rules.epsilon = epsilon;
   choose_value_coding(rules);
+  rules.value_codes = rules.coding.value_max;
   choose_depth_coding(view, depth_tolerance, rules);
   choose_bounds(rules);
   fill_tables(rules);
   return rules;
+}
+
+void write_unrounded(FitRules& rules) {
+  if (rules.constant_pieces) return;
+  rules.code_scale = 1;
+  rules.coding.value_max = static_cast<std::uint32_t>(kValueScale) * rules.value_codes;
+  rules.coding.value_bits = 2 * rules.coding.value_bits;
 }
 
 FitRules make_level_rules(const FitRules& rules, std::uint32_t level) {

@@ -26,6 +26,9 @@ struct CountBounds {
 /// What a bake's fits have in common: how vertices are coded, and the tube's bounds for each count.
 struct FitRules {
   VertexCoding coding;
+  /// Codes of V = 1 that the tube leaves rounding room for: coding.value_max, unless values are unrounded.
+  std::uint32_t value_codes = 255;
+  std::int64_t code_scale = kValueScale;  ///< scaled values that a written code holds
   std::uint32_t sample_count = 1;  ///< V = count / sample_count; of a mip level: of all its children together
   double epsilon = 0;              ///< bound on V
   double tolerance = 0;            ///< delta, metres, after raising it to what the coding can hold
@@ -38,10 +41,10 @@ struct FitRules {
   /// Bounds for V = count / sample_count, quantisation taken off: a line within them stays within epsilon
   /// when its ends are rounded to codes.
   [[nodiscard]] CountBounds bounds_of(std::uint32_t count) const {
-    const double value = static_cast<double>(kValueScale) * coding.value_max * count / sample_count;
+    const double value = static_cast<double>(kValueScale) * value_codes * count / sample_count;
     CountBounds bounds{round_up(std::max(value - half_width + quantum, 0.0)),
                        static_cast<std::int64_t>(value + half_width - quantum)};
-    bounds.upper = std::min(bounds.upper, kValueScale * std::int64_t{coding.value_max});
+    bounds.upper = std::min(bounds.upper, kValueScale * std::int64_t{value_codes});
     if (!constant_pieces) return bounds;
     // A constant can only be a whole code.
     return {(bounds.lower + kValueScale - 1) / kValueScale * kValueScale,
@@ -64,6 +67,10 @@ struct FitRules {
 ///   depths  16 bits while two steps are within delta, else 32
 [[nodiscard]] FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon,
                                       double depth_tolerance);
+
+/// Has values written in scaled values instead of codes: the same tube and pieces, with their ends as the
+/// fit has them. Tells what rounding adds. Lossless values are whole codes and stay as they are.
+void write_unrounded(FitRules& rules);
 
 /// The rules of a mip level, whose counts are sums over the 4^level texels of each of its own: the same
 /// coding and tube. Lossless, a mean of counts is no count: the nearest is within 1 / 2N.

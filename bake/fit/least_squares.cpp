@@ -23,7 +23,7 @@ PieceLine least_squares_line(const StepFunction& function, const FitRules& rules
     moment1 += count * (to - from) * ((to + from) / 2 - center);
     from = std::max(from, to);
   }
-  const double unit = static_cast<double>(kValueScale) * rules.coding.value_max / rules.sample_count;
+  const double unit = static_cast<double>(kValueScale) * rules.value_codes / rules.sample_count;
   const double length = x1 - x0, mean = unit * moment0 / length;
   const double half_rise = unit * 6 * moment1 / (length * length);
   return {mean - half_rise, mean + half_rise};

@@ -83,7 +83,7 @@ void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspa
 }
 
 void relax_tube(const FitRules& rules, std::span<const CodeBand> bands, std::vector<TubeRun>& tube) {
-  const std::int64_t free_high = kValueScale * std::int64_t{rules.coding.value_max};
+  const std::int64_t free_high = kValueScale * std::int64_t{rules.value_codes};
   std::vector<TubeRun> relaxed;
   const auto append = [&relaxed](const TubeRun& run) {
     if (!relaxed.empty() && relaxed.back().begin == run.begin) relaxed.pop_back();

@@ -9,8 +9,10 @@
 
 #include "events/event_log.h"
 #include "pdsm/format/error.h"
+#include "tile/bake_blocks.h"
 #include "tile/bake_job.h"
 #include "tile/map_blocks.h"
+#include "tile/modelled_features.h"
 
 namespace pdsm {
 namespace {
@@ -138,7 +140,7 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.max_slope_bias = done.slope_bias_max;
   report.walk = job.options.walk;
   report.isa = job.options.isa;
-  report.modelled = list_modelled_features(job);
+  report.modelled = list_modelled_features(job, done);
   if (job.light_space.dropped_triangles > 0) {
     report.warnings.push_back(std::to_string(job.light_space.dropped_triangles) +
                               " triangles without finite coordinates left out");
@@ -164,6 +166,11 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
   baked.blocks = blocks.release();
   baked.report = make_report(job, done, run.tiles(), start);
   return baked;
+}
+
+void bake_blocks(const BakeJob& job, const BlockSink& sink, const BakeCallbacks& callbacks) {
+  const TileInput input = job.tile_input();
+  TileRun(job, input, sink, callbacks).run();
 }
 
 BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOptions& options) {

@@ -110,6 +110,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
   rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
                          options.depth_tolerance.value_or(kToleranceShare * bias));
+  if (options.unrounded_values) write_unrounded(rules);
   mip_levels = count_mip_levels(options);
   plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
   const double start = omp_get_wtime();
@@ -142,48 +143,6 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
 
 bool BakeJob::shift_law() const {
   return std::all_of(samples.begin(), samples.end(), obeys_shift_law);
-}
-
-std::vector<ModelledFeature> list_modelled_features(const BakeJob& job) {
-  const bool planar = job.shift_law();
-  const FittedView& fitted = job.fitted;
-  const auto bits = [](std::uint32_t n) { return std::to_string(n) + " bits"; };
-  const VertexCoding& coding = job.rules.coding;
-  std::vector<ModelledFeature> list;
-  list.push_back({"shadow maps", !fitted.nothing_casts,
-                  fitted.nothing_casts ? "no caster lies between light and window"
-                                       : "casters lie between light and window"});
-  list.push_back({"general scan conversion", !planar,
-                  planar ? "all light samples lie in the light's plane: one walk serves all rays"
-                         : "light samples lie out of the light's plane"});
-  list.push_back({"transmittance", false, "all casters are opaque: events are counted in integers"});
-  list.push_back({"volumes", false, "the scene has none"});
-  list.push_back({"colour", false, "the light and all casters are grey: one channel"});
-  list.push_back({"faces", false, "one view holds the window"});
-  list.push_back({"domain ends", job.options.receivers != Receivers::all,
-                  job.options.receivers != Receivers::all
-                      ? "functions end at the last receiver on each ray"
-                      : "--receivers all asks for functions exact to far"});
-  list.push_back({"surfaces alone", job.options.receivers == Receivers::surfaces,
-                  job.options.receivers == Receivers::surfaces ? "--receivers surfaces leaves free space out"
-                                                               : "anything may receive in free space"});
-  list.push_back({"mip levels", job.mip_levels > 0,
-                  job.mip_levels > 0
-                      ? "look-ups of up to " + std::to_string(1U << job.mip_levels) +
-                            " texels across find their mean: levels up to " + std::to_string(job.mip_levels)
-                  : job.options.mip_levels > 0 ? "the map is one texel across"
-                                               : "not asked for by --mip-levels"});
-  list.push_back({"fitted window", fitted.window_fitted,
-                  fitted.window_fitted ? "fitted to casters and receivers" : "given by the scene"});
-  list.push_back(
-      {"fitted near", fitted.near_fitted,
-       fitted.near_fitted ? "nearest caster in the hull of light and window" : "given by the scene"});
-  list.push_back({"fitted far", fitted.far_fitted,
-                  fitted.far_fitted ? "last receiver in the window" : "given by the scene"});
-  list.push_back(
-      {"depths of 32 bits", coding.depth_bits == 32, "the depth tolerance needs " + bits(coding.depth_bits)});
-  list.push_back({"values beyond 8 bits", coding.value_bits > 8, "epsilon needs " + bits(coding.value_bits)});
-  return list;
 }
 
 }  // namespace pdsm

@@ -34,7 +34,4 @@ class BakeJob {
   std::uint64_t resident_after_bvh = 0;
 };
 
-/// What was modelled and what was left out, with the reasons.
-[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeJob& job);
-
 }  // namespace pdsm

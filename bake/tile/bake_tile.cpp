@@ -12,6 +12,7 @@
 #include "events/event_log.h"
 #include "tile/fit_block.h"
 #include "tile/parallel_failure.h"
+#include "tile/sample_bias.h"
 #include "tile/shadow_cells.h"
 #include "trace/domain_ends.h"
 #include "trace/surface_bands.h"
@@ -102,26 +103,6 @@ void make_packets(const TileInput& input, const ShadowCells& cells, TileBlock& b
   });
 }
 
-/// A ray of the exact walk passes a map texel within half a texel of its centre.
-constexpr double kWalkReach = 0.5;
-/// The midpoint walk strays up to half a texel more across its major axis.
-constexpr double kMidpointReach = 0.5;
-/// Bilinear look-ups ask a ray about points up to a texel beside it, a third of a texel on average. This
-/// share of a PDSM texel balances false shadow against leaks on the dragon's own surface (docs/maths.md).
-constexpr double kFilterReach = 0.25;
-
-MapBias sample_bias(const TileInput& input, const LightSample& sample) {
-  MapBias bias{input.bias, {}};
-  for (std::size_t a = 0; a < 2; ++a)
-    bias.reach[a] = kWalkReach + kFilterReach * input.grid.ratio[a].maps_per_texel();
-  if (input.walk == Walk::exact) return bias;
-  const RayPath path = make_ray_path(input.grid, sample, 0, 0);
-  const bool x_major = std::abs(path.slope[0]) >= std::abs(path.slope[1]);
-  if (!input.shift_law || !x_major) bias.reach[0] += kMidpointReach;
-  if (!input.shift_law || x_major) bias.reach[1] += kMidpointReach;
-  return bias;
-}
-
 /// The rows of a tile that strip `n` of `count` covers, whole blocks.
 TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
@@ -136,7 +117,7 @@ TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count)
 /// be darkened are looked at.
 void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
                  const ShadowCells& cells, WalkThread& thread) {
-  const MapBias bias = sample_bias(input, sample);
+  const MapBias bias = sample_bias(input.grid, input.walk, input.shift_law, input.bias, sample);
   const std::uint32_t interleave = input.grid.ratio[0].fine;
   if (!input.shift_law) {
     thread.map.reset(general_footprint(input.grid, sample, strip), interleave);
@@ -218,6 +199,7 @@ class TileJob {
           std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
     }
     statistics.event_bytes = std::max(statistics.event_bytes, budget_.used());
+    statistics.undarkened_texels += cells_.undarkened_texels();
     return cancelled_ ? TileOutcome::cancelled : TileOutcome::done;
   }
 
@@ -323,6 +305,7 @@ void TileStatistics::add(const TileStatistics& other) {
   events += other.events;
   pieces += other.pieces;
   empty_texels += other.empty_texels;
+  undarkened_texels += other.undarkened_texels;
   event_bytes = std::max(event_bytes, other.event_bytes);
   slope_bias_sum += other.slope_bias_sum;
   slope_bias_max = std::max(slope_bias_max, other.slope_bias_max);

@@ -198,6 +198,14 @@ TexelRect ShadowCells::cell_rect(std::int32_t x, std::int32_t y) const {
   return {x0, y0, std::min(x0 + kCellSize, tile.x1), std::min(y0 + kCellSize, tile.y1)};
 }
 
+std::uint64_t ShadowCells::undarkened_texels() const {
+  std::uint64_t texels = 0;
+  for (std::int32_t y = 0; y < up; ++y)
+    for (std::int32_t x = 0; x < across; ++x)
+      if (!may_darken(x, y)) texels += cell_rect(x, y).area();
+  return texels;
+}
+
 ShadowCells find_shadow_cells(const ShadowCellInput& input, const TexelRect& tile,
                               const DomainEndAt& domain_end) {
   return CellMarker(input, tile, domain_end).run();

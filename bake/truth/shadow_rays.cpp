@@ -26,9 +26,45 @@ bool is_caster(const Geometry& geometry) {
 /// Rays from one point to up to 16 light points, `t` from 0 at the point to 1 at the light.
 struct ShadowRays::Packet {
   glm::vec3 origin;
-  float end;
-  std::uint32_t size;
+  double depth;  ///< of the point, light space
+  std::uint32_t size = 0;
   std::array<glm::vec3, kPacketSize> direction;
+  std::array<float, kPacketSize> end;
+  std::array<LightPoint, kPacketSize> light_point;
+};
+
+/// What the filter of biased rays knows; rays carry their lane as id.
+struct ShadowRays::BiasedContext {
+  RTCIntersectContext context;  // first, so that Embree's pointer to it is one to the whole
+  const Packet* packet;
+  const CasterBias* bias;
+  const RigidTransform* world_to_light;
+
+  [[nodiscard]] glm::dvec3 to_light(const glm::dvec3& v) const {
+    const auto& r = world_to_light->rotation;
+    return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
+            r[6] * v.x + r[7] * v.y + r[8] * v.z};
+  }
+
+  /// Whether a caster met at `t` by the ray of `lane` is so near that its shadow begins behind the point.
+  [[nodiscard]] bool ignores(unsigned lane, double t, const glm::dvec3& normal) const {
+    const LightPoint& from = packet->light_point[lane];
+    const double depth = packet->depth - from.position.z;
+    const glm::dvec3 along = to_light(-glm::dvec3(packet->direction[lane])) / depth;
+    return t * depth <= bias_of(*bias, from, to_light(normal), along, (1 - t) * depth);
+  }
+
+  static void filter(const RTCFilterFunctionNArguments* args) {
+    const auto& self = *reinterpret_cast<const BiasedContext*>(args->context);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+      if (args->valid[i] != -1) continue;
+      const glm::dvec3 normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
+                              RTCHitN_Ng_z(args->hit, n, i));
+      const auto t = static_cast<double>(RTCRayN_tfar(args->ray, n, i));
+      if (self.ignores(RTCRayN_id(args->ray, n, i), t, normal)) args->valid[i] = 0;
+    }
+  }
 };
 
 ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth)
@@ -46,29 +82,48 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
 
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
-  assert(samples >= 1);
-  const glm::dvec3 in_light = apply(world_to_light_, world_point);
-  if (!(in_light.z > emitter_depth_)) return 0;
-
-  Packet packet;
-  packet.origin = glm::vec3(world_point - casters_.centre());
-  packet.end = static_cast<float>(1 - emitter_depth_ / in_light.z);
   const JitteredGrid grid(samples);
-  std::uint64_t blocked = 0;
-  for (std::uint32_t first = 0; first < samples; first += kPacketSize) {
-    packet.size = std::min(kPacketSize, samples - first);
-    for (std::uint32_t i = 0; i < packet.size; ++i) {
-      const std::array<double, 2> on_light = light_point(light_, grid.point(first + i, seed));
-      packet.direction[i] =
-          glm::vec3(apply(light_to_world_, glm::dvec3(on_light[0], on_light[1], 0)) - world_point);
-    }
-    blocked += static_cast<std::uint64_t>(count_blocked(packet));
-    if (samples - first <= kPacketSize) break;  // first + 16 may not fit 32 bits
-  }
-  return static_cast<double>(blocked) / samples;
+  const auto drawn = [&](std::uint32_t n) {
+    const std::array<double, 2> on_light = light_point(light_, grid.point(n, seed));
+    return LightPoint{glm::dvec3(on_light[0], on_light[1], 0)};
+  };
+  return share_blocked(world_point, samples, drawn, nullptr);
 }
 
-int ShadowRays::count_blocked(const Packet& packet) const {
+double ShadowRays::attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
+                               const CasterBias* bias) const {
+  const auto given = [&](std::uint32_t n) -> const LightPoint& { return light_points[n]; };
+  return share_blocked(world_point, static_cast<std::uint32_t>(light_points.size()), given, bias);
+}
+
+template <typename MakePoint>
+double ShadowRays::share_blocked(const glm::dvec3& world_point, std::uint32_t count,
+                                 const MakePoint& light_point, const CasterBias* bias) const {
+  assert(count >= 1);
+  Packet packet;
+  packet.depth = apply(world_to_light_, world_point).z;
+  if (!(packet.depth > emitter_depth_)) return 0;
+  packet.origin = glm::vec3(world_point - casters_.centre());
+  std::uint64_t blocked = 0;
+  for (std::uint32_t first = 0; first < count; first += kPacketSize) {
+    const std::uint32_t size = std::min(kPacketSize, count - first);
+    packet.size = 0;
+    for (std::uint32_t i = 0; i < size; ++i) add_ray(world_point, light_point(first + i), packet);
+    blocked += static_cast<std::uint64_t>(count_blocked(packet, bias));
+    if (count - first <= kPacketSize) break;  // first + 16 may not fit 32 bits
+  }
+  return static_cast<double>(blocked) / count;
+}
+
+void ShadowRays::add_ray(const glm::dvec3& world_point, const LightPoint& point, Packet& packet) const {
+  const std::uint32_t n = packet.size++;
+  const double length = packet.depth - point.position.z;
+  packet.direction[n] = glm::vec3(apply(light_to_world_, point.position) - world_point);
+  packet.end[n] = static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / length));
+  packet.light_point[n] = point;
+}
+
+int ShadowRays::count_blocked(const Packet& packet, const CasterBias* bias) const {
   alignas(64) std::array<int, kPacketSize> valid{};
   RTCRay16 rays{};
   for (std::uint32_t i = 0; i < packet.size; ++i) {
@@ -80,13 +135,15 @@ int ShadowRays::count_blocked(const Packet& packet) const {
     rays.dir_y[i] = packet.direction[i].y;
     rays.dir_z[i] = packet.direction[i].z;
     rays.tnear[i] = static_cast<float>(kRayStart);
-    rays.tfar[i] = packet.end;
+    rays.tfar[i] = packet.end[i];
     rays.mask[i] = ~0U;
+    rays.id[i] = i;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid.data(), casters_.handle(), &context, &rays);
+  BiasedContext biased{{}, &packet, bias, &world_to_light_};
+  rtcInitIntersectContext(&biased.context);
+  biased.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (bias != nullptr) biased.context.filter = BiasedContext::filter;
+  rtcOccluded16(valid.data(), casters_.handle(), &biased.context, &rays);
 
   // Embree marks a blocked ray by a tfar of -inf.
   int blocked = 0;

@@ -9,6 +9,7 @@
 
 #include "pdsm/bake/scene.h"
 #include "pdsm/format/penumbra_map.h"
+#include "truth/caster_bias.h"
 #include "truth/world_scene.h"
 
 namespace pdsm {
@@ -33,9 +34,20 @@ class ShadowRays {
                                                  std::uint32_t samples, std::uint64_t seed,
                                                  bool same_seed = false) const;
 
+  /// Share of the given light points (1 or more) that casters hide from `world_point`; 0 behind the light.
+  /// With `bias`, a caster hides nothing from points as near behind it, in depth, as its bias.
+  [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
+                                   const CasterBias* bias = nullptr) const;
+
  private:
   struct Packet;
-  [[nodiscard]] int count_blocked(const Packet& packet) const;
+  struct BiasedContext;
+  /// Share of light points 0 .. count - 1 that are hidden; `light_point(n)` makes them.
+  template <typename MakePoint>
+  [[nodiscard]] double share_blocked(const glm::dvec3& world_point, std::uint32_t count,
+                                     const MakePoint& light_point, const CasterBias* bias) const;
+  void add_ray(const glm::dvec3& world_point, const LightPoint& point, Packet& packet) const;
+  [[nodiscard]] int count_blocked(const Packet& packet, const CasterBias* bias) const;
 
   Light light_;
   RigidTransform world_to_light_, light_to_world_;

@@ -58,7 +58,7 @@ WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geomet
   rtcSetDeviceErrorFunction(device_.get(), throw_embree_error, nullptr);
   scene_.reset(rtcNewScene(device_.get()));
   // Without the robust flag rays slip through the shared edges of a closed mesh.
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
     if (keep(scene.geometry[i])) attach(scene.geometry[i], static_cast<unsigned>(i), keep_triangle);
   }

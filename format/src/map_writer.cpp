@@ -193,6 +193,12 @@ std::uint64_t write_encoded_map(const PenumbraMap& map, std::span<const std::vec
   return size;
 }
 
+std::uint64_t encoded_map_bytes(const PenumbraMap& map, std::span<const std::vector<EncodedBlock>> blocks) {
+  assert(blocks.size() == map.images.size());
+  std::vector<Chunk> chunks = make_chunks(map, blocks);
+  return place_chunks(chunks);
+}
+
 std::uint64_t write_map(const PenumbraMap& map, const std::filesystem::path& path,
                         const WriteOptions& options) {
   assert(find_invariant_fault(map).empty());

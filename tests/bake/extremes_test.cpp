@@ -2,6 +2,8 @@
 // Extremes that must come out exactly (numerics.md section 5).
 #include <gtest/gtest.h>
 
+#include <xmmintrin.h>
+
 #include <cmath>
 #include <limits>
 
@@ -257,6 +259,61 @@ TEST(Extremes, GeometryInOrBehindTheEmitterNeverBlocks) {
   add(scene, Plate{-5, -5, 5, 5, -1});
   add(scene, Plate{-5, -5, 5, 5, 1e-4});
   expect_same_bytes(clean, {scene, key_light(), small_options(32, 24, 16)});
+}
+
+/// A light inside a solid: the solid hides all of it.
+TEST(Extremes, ALightInsideAnOccluderIsHiddenEverywhere) {
+  Scene scene;
+  add(scene, box_mesh({-2, -2, -1}, {2, 2, 1.5}));
+  add(scene, Plate{-20, -20, 20, 20, kFar});
+  Light light = rect_light(1, 1);
+  light.window = {-0.5, -0.4, 0.5, 0.4};
+  BakeOptions options = small_options(24, 24, 64);
+  options.epsilon = 0;
+  const BakedFunctions baked(scene, light, options);
+  for (std::uint32_t n = 0; n < 24; ++n) {
+    EXPECT_EQ(baked.value(n, n, 2), 1);
+    EXPECT_EQ(baked.value(n, 23 - n, kFar - 0.1), 1);
+  }
+}
+
+/// Wires narrower than a texel are not lost, nor do they grow: the shadow of a strip w wide at depth h is w z
+/// / h wide at depth z, in the mean over the light, whatever the light's size.
+TEST(Extremes, WiresBelowATexelKeepTheirMeanCoverage) {
+  constexpr std::uint32_t kSamples = 4096, kTexels = 64;
+  constexpr double kDepth = 4, kReceiver = 6;
+  Light light = rect_light(0.3, 0.3);
+  set_view(light, 0.5, 0.05, 2, kFar);
+  BakeOptions options = small_options(kTexels, 6, kSamples);
+  options.epsilon = 0;
+  const double texel = 1.0 / kTexels;  // in slope
+  for (const double share : {0.25, 0.5, 0.9}) {
+    const double width = share * texel * kDepth;
+    Scene scene;
+    add(scene, Plate{0.13, -kWide, 0.13 + width, kWide, kDepth});
+    add(scene, Plate{-90, -90, 90, 90, kFar});
+    const BakedFunctions baked(scene, light, options);
+    double covered = 0;  // in texels of the receiver's depth
+    for (std::uint32_t i = 0; i < kTexels; ++i) covered += baked.value(i, 3, kReceiver);
+    // Each sample's jittered row of texels meets the wire in one texel or none: Hoeffding at 1e-6 over
+    // samples.
+    const double tolerance = std::sqrt(std::log(2e6) / (2.0 * kSamples));
+    EXPECT_NEAR(covered, share, tolerance) << share;
+  }
+}
+
+/// Denormals: the caller's rounding mode for them changes nothing, and comes back as it was.
+TEST(Extremes, TheCallersDenormalModeChangesNothing) {
+  constexpr unsigned kFlush = 0x8040;
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before & ~kFlush);
+  const BakedFunctions kept(plate_over_floor(), key_light(), small_options(48, 48, 16));
+  EXPECT_EQ(_mm_getcsr() & kFlush, 0u);
+  _mm_setcsr(before | kFlush);
+  const BakedFunctions flushed(plate_over_floor(), key_light(), small_options(48, 48, 16));
+  EXPECT_EQ(_mm_getcsr() & kFlush, kFlush);
+  _mm_setcsr(before);
+  expect_same_bytes(kept, flushed);
 }
 
 /// An occluder that nearly touches the light hides what it covers, at any depth.

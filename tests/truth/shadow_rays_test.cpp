@@ -280,5 +280,79 @@ TEST(ShadowRays, SameSeedGivesPointsOneAnswer) {
   EXPECT_LT(std::count(own.begin(), own.end(), own.front()), 20);
 }
 
+TEST(CasterBias, HoldsThePlaneOverTheReach) {
+  // On the plane n . P = c the depth along direction d is c / (n . d). The bias is how much farther it gets
+  // at most when d.x and d.y change by the reach.
+  for (std::uint64_t n = 0; n < 200; ++n) {
+    const auto unit = [n](std::uint64_t i) { return 2 * hash_unit(n, i) - 1; };
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(unit(0), unit(1), unit(2)));
+    const glm::dvec3 d(0.4 * unit(3), 0.4 * unit(4), 1);
+    const LightPoint from{glm::dvec3(0), {0.01, 0.02}};
+    const double c = 3 * std::abs(glm::dot(normal, d));
+    double farthest = 0, least = 1;
+    for (const double x : {-0.01, 0.01}) {
+      for (const double y : {-0.02, 0.02}) {
+        const double facing = std::abs(glm::dot(normal, d + glm::dvec3(x, y, 0)));
+        const bool other_side = glm::dot(normal, d + glm::dvec3(x, y, 0)) * glm::dot(normal, d) <= 0;
+        least = other_side ? 0 : std::min(least, facing);
+        farthest = std::max(farthest, c / facing);
+      }
+    }
+    const double bias = bias_of({0.5, 9}, from, 2.0 * normal, d, 3);
+    if (least > 0 && farthest < 12 - 1e-9)
+      EXPECT_NEAR(bias, 0.5 + farthest - 3, 1e-9 * farthest) << n;
+    else
+      EXPECT_EQ(bias, 9.5) << n;
+  }
+}
+
+TEST(ShadowRays, GivenPointsAreShadedWithAndWithoutBias) {
+  const Light light = light_at_origin(RectLight{1, 1});
+  const ShadowRays rays = rays_through({plate(0.1, -9, 9, 9, 4)}, light);
+  // From (0, 0, 5) the plate hides the points of the light with x > 0.5 - ...: its edge at 0.1 is seen where
+  // x = 0 + (0.1 - 0) * 5 / 1.
+  std::vector<LightPoint> points;
+  for (int n = 0; n < 37; ++n) points.push_back({glm::dvec3(-0.5 + n / 36.0, 0.2, 0), {0, 0}});
+  const glm::dvec3 p(0.12, 0, 5);
+  // A line from s to p passes depth 4 at s + 0.8 (p - s) = 0.2 s + 0.096: blocked where s > 0.02.
+  const auto expected = static_cast<double>(
+      std::count_if(points.begin(), points.end(), [](const LightPoint& l) { return l.position.x > 0.02; }));
+  EXPECT_DOUBLE_EQ(rays.attenuation(p, points), expected / 37);
+  // The plate is 1 m in front of the point: a bias of less hides nothing, one of more all.
+  const CasterBias less{0.999, 9}, more{1.001, 9};
+  EXPECT_DOUBLE_EQ(rays.attenuation(p, points, &less), expected / 37);
+  EXPECT_EQ(rays.attenuation(p, points, &more), 0);
+  // Behind one caster that is too near there may be another that is not.
+  const ShadowRays both = rays_through({plate(0.1, -9, 9, 9, 4), plate(-9, -9, 9, 9, 3)}, light);
+  EXPECT_EQ(both.attenuation(p, points, &more), 1);
+  EXPECT_EQ(both.attenuation({0, 0, -1}, points, &more), 0);
+  // Points of a light may lie out of its plane.
+  const std::vector<LightPoint> nearer{{glm::dvec3(0.5, 0, 1.5)}, {glm::dvec3(0.5, 0, 4.5)}};
+  EXPECT_EQ(rays.attenuation(p, nearer), 0.5);
+}
+
+TEST(ShadowRays, EachGivenPointHasItsOwnBias) {
+  // A caster that rises by 1 m a metre, 0.5 m in front of p: seen within 0.2 of slope, all but the light
+  // points without a reach may have hit it behind p.
+  const Light light = light_at_origin(RectLight{1, 1});
+  const ShadowRays rays =
+      rays_through({quad({-3, -3, 1.5F}, {3, -3, 7.5F}, {3, 3, 7.5F}, {-3, 3, 1.5F})}, light);
+  std::vector<LightPoint> points(32, LightPoint{glm::dvec3(0.1, 0, 0), {0.2, 0.2}});
+  for (const std::size_t n : {3U, 16U, 17U}) points[n].reach = {0, 0};
+  const CasterBias bias{0.1, 9};
+  EXPECT_DOUBLE_EQ(rays.attenuation({0, 0, 5}, points, &bias), 3.0 / 32);
+  EXPECT_EQ(rays.attenuation({0, 0, 5}, points), 1);
+}
+
+TEST(ShadowRays, NothingBehindTheEmitterHidesGivenPoints) {
+  // A wall through the emitter. Lines from points behind it pass the wall at z = -0.85 and 0.35.
+  const Light light = light_at_origin(RectLight{2, 2});
+  const ShadowRays rays =
+      rays_through({quad({-0.95F, -3, -2}, {-0.95F, 3, -2}, {-0.95F, 3, 0.5F}, {-0.95F, -3, 0.5F})}, light);
+  const std::vector<LightPoint> behind{{glm::dvec3(-1, 0, -1)}}, far_behind{{glm::dvec3(-1.4, 0, -1)}};
+  EXPECT_EQ(rays.attenuation({1, 0, 5}, behind), 0);
+  EXPECT_EQ(rays.attenuation({0.6, 0, 5}, far_behind), 1);
+}
+
 }  // namespace
 }  // namespace pdsm

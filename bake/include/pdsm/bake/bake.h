@@ -51,8 +51,9 @@ struct BakeOptions {
   Walk walk = Walk::exact;
   Receivers receivers = Receivers::volume;
   PointSet points = PointSet::lattice;
-  std::uint32_t mip_levels = 0;  ///< levels above 0 (penumbra_map.h, FunctionImage), 0 .. kMostMipLevels;
-                                 ///< no more are made than the map's smaller side can be halved
+  std::uint32_t mip_levels = 0;   ///< levels above 0 (penumbra_map.h, FunctionImage), 0 .. kMostMipLevels;
+                                  ///< no more are made than the map's smaller side can be halved
+  bool unrounded_values = false;  ///< for measuring: the same pieces, values in 1/256 of the codes they had
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that baking may take beyond scene and BVH
   std::uint32_t threads = 0;                      ///< 0: all processors
   std::uint64_t seed = 0;
@@ -75,6 +76,7 @@ struct ModelledFeature {
   std::string feature;  ///< "opaque casters", "volumes", "general scan conversion", ...
   bool modelled = false;
   std::string reason;  ///< one clause
+  std::string saved;   ///< what leaving it out saved: a number and of what; empty where nothing can be said
 };
 
 /// What a bake did. Seconds are wall-clock; walk and accumulate are shares of the thread time.

@@ -68,6 +68,10 @@ std::uint64_t write_map(const PenumbraMap& map, const std::filesystem::path& pat
 std::uint64_t write_encoded_map(const PenumbraMap& map, std::span<const std::vector<EncodedBlock>> blocks,
                                 const std::filesystem::path& path);
 
+/// The number of bytes that write_encoded_map would write.
+[[nodiscard]] std::uint64_t encoded_map_bytes(const PenumbraMap& map,
+                                              std::span<const std::vector<EncodedBlock>> blocks);
+
 /// Reads a file of any origin: safe on any bytes, allocates at most `limits` (and once more what its largest
 /// block takes, while that is decompressed), and little before the data has been seen to be there.
 /// The file is mapped: it must not be cut while this runs, which AtomicFile never does.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "choose/settings.h"
+#include "evaluate/verify.h"
+#include "pdsm/bake/bake.h"
+#include "pdsm/bake/scene.h"
+
+namespace pdsm {
+
+/// One bake of a search, and what came of it.
+struct Trial {
+  std::string purpose;
+  Settings settings;
+  VerifyResult error;              ///< at this trial's own points
+  double standard_error = 0;       ///< of error.mean_abs_error: other points would give another
+  std::uint64_t bytes = 0;         ///< of the file without metadata
+  std::uint64_t sample_bytes = 0;  ///< of them, what the light samples take: they grow by themselves
+  double seconds_bake = 0, seconds_measure = 0;
+
+  [[nodiscard]] double mean_abs_error() const { return error.mean_abs_error; }
+  [[nodiscard]] double seconds() const { return seconds_bake + seconds_measure; }
+};
+
+struct TrialBake {
+  Trial trial;
+  BakedMap baked;
+};
+
+struct TrialCallbacks {
+  std::function<void(const std::string&)> begin;  ///< told what begins now; may be empty
+  BakeCallbacks bake;
+};
+
+/// Bakes and measures one light with different settings.
+class TrialBench {
+ public:
+  /// Borrows `scene` and `light`. Trials take everything but the settings from `options`.
+  TrialBench(const Scene& scene, const Light& light, BakeOptions options, TrialCallbacks callbacks);
+
+  /// Throws as bake() does.
+  [[nodiscard]] TrialBake run(const std::string& purpose, const Settings& settings,
+                              const VerifyOptions& measure) const;
+
+ private:
+  const Scene& scene_;
+  const Light& light_;
+  BakeOptions options_;
+  TrialCallbacks callbacks_;
+};
+
+/// Standard error of the mean abs error: of a sum over points drawn at random, divided by how many of them
+/// are in shadow.
+[[nodiscard]] double standard_error(const VerifyResult& result);
+
+}  // namespace pdsm

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "evaluate/error_budget.h"
+#include "evaluate/verify.h"
+
+namespace pdsm {
+
+/// What `pdsm verify` found out (docs/commands.md).
+struct VerifyReport {
+  VerifyResult result;
+  double atty_error = 0;
+  std::optional<ErrorBudget> budget;
+};
+
+[[nodiscard]] std::string verify_json(const VerifyReport& report);
+[[nodiscard]] std::string verify_text(const VerifyReport& report);
+
+}  // namespace pdsm

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "pdsm/bake/scene.h"
+#include "pdsm/format/penumbra_map.h"
+
+namespace pdsm {
+
+struct VerifyOptions {
+  std::uint32_t points = 4000;   ///< half on surfaces, half in free space; >= 1
+  bool free_space = true;        ///< false: all on surfaces, for maps that are exact there alone
+  std::uint32_t samples = 4096;  ///< shadow rays a point; >= 2
+  std::uint64_t seed = 0;
+};
+
+/// Points at which a map is measured, and the truth there: in two independent halves, whose mean is the
+/// truth and whose difference tells its error.
+struct ProbedTruth {
+  std::vector<glm::dvec3> points;  ///< world, metres; those on surfaces first
+  std::size_t surface_points = 0;
+  std::vector<double> a, b;  ///< attenuations
+
+  [[nodiscard]] double value(std::size_t n) const { return 0.5 * (a[n] + b[n]); }
+  [[nodiscard]] double squared_error(std::size_t n) const { return 0.25 * (a[n] - b[n]) * (a[n] - b[n]); }
+  [[nodiscard]] std::vector<double> values() const;
+  [[nodiscard]] std::size_t shadowed_points() const;  ///< with true V > 0
+};
+
+/// Chooses the points for `map`, of `light`, and traces the truth. Uses all threads; the result does not
+/// depend on their number. Throws Error (input) for maps of several views.
+[[nodiscard]] ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light& light,
+                                      const VerifyOptions& options);
+
+}  // namespace pdsm

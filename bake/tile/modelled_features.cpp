@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/modelled_features.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pdsm {
+namespace {
+
+/// Levels of a full mip chain within blocks.
+constexpr std::uint32_t kAllLevels = 6;
+
+std::string counted(std::uint64_t count, const char* what) {
+  return std::to_string(count) + " " + what;
+}
+
+/// The list under construction.
+class FeatureList {
+ public:
+  void modelled(const char* feature, const std::string& reason) {
+    list_.push_back({feature, true, reason, {}});
+  }
+  void left_out(const char* feature, const std::string& reason, const std::string& saved = {}) {
+    list_.push_back({feature, false, reason, saved});
+  }
+  /// A feature whose reason is the same either way.
+  void either(bool is_modelled, const char* feature, const std::string& reason_for,
+              const std::string& reason_against, const std::string& saved = {}) {
+    if (is_modelled)
+      modelled(feature, reason_for);
+    else
+      left_out(feature, reason_against, saved);
+  }
+  [[nodiscard]] std::vector<ModelledFeature> release() { return std::move(list_); }
+
+ private:
+  std::vector<ModelledFeature> list_;
+};
+
+/// What vertices of another coding would take more.
+std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, std::uint64_t pieces) {
+  const std::uint64_t words = other.words_per_vertex() - coding.words_per_vertex();
+  return counted(4 * words * pieces, "bytes of vertices");
+}
+
+/// How visibility was found. Numbers are of the map, not of the tiles: the file must not depend on those.
+void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
+  const std::uint64_t texels = std::uint64_t{job.grid.texels[0]} * job.grid.texels[1];
+  const std::uint64_t samples = job.samples.size();
+  const bool casts = !job.fitted.nothing_casts;
+  list.either(casts, "shadow maps", "casters lie between light and window",
+              "no caster lies between light and window", counted(samples, "shadow maps"));
+  if (casts && job.shift_law())
+    list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
+                  counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));
+  list.either(!job.shift_law(), "general scan conversion", "light samples lie out of the light's plane",
+              "all light samples lie in the light's plane: one walk serves all rays",
+              counted((texels - 1) * samples, "conversions of a ray"));
+  list.left_out("transmittance", "all casters are opaque: events are counted in integers",
+                counted(samples, "transmittance functions a map texel"));
+  list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
+  list.left_out("faces", "one view holds the window", counted(5 * texels, "texels"));
+}
+
+/// Where functions are exact.
+void list_domain(const BakeJob& job, FeatureList& list) {
+  const FittedView& fitted = job.fitted;
+  list.either(job.options.receivers != Receivers::all, "domain ends",
+              "functions end at the last receiver on each ray",
+              "--receivers all asks for functions exact to far");
+  list.either(job.options.receivers == Receivers::surfaces, "surfaces alone",
+              "--receivers surfaces leaves free space out", "anything may receive in free space");
+  list.either(fitted.window_fitted, "fitted window", "fitted to casters and receivers", "given by the scene");
+  list.either(fitted.near_fitted, "fitted near", "nearest caster in the hull of light and window",
+              "given by the scene");
+  list.either(fitted.far_fitted, "fitted far", "last receiver in the window", "given by the scene");
+}
+
+void list_levels(const BakeJob& job, FeatureList& list) {
+  std::uint64_t texels = 0;
+  for (std::uint32_t level = 1; level <= kAllLevels; ++level)
+    texels += std::uint64_t{job.grid.texels[0] >> level} * (job.grid.texels[1] >> level);
+  list.either(job.mip_levels > 0, "mip levels",
+              "look-ups of up to " + std::to_string(1U << job.mip_levels) +
+                  " texels across find their mean: levels up to " + std::to_string(job.mip_levels),
+              job.options.mip_levels > 0 ? "the map is one texel across" : "not asked for by --mip-levels",
+              counted(texels, "functions"));
+}
+
+/// How functions are stored.
+void list_coding(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
+  const VertexCoding& coding = job.rules.coding;
+  VertexCoding colour = coding, deep = coding, fine = coding;
+  colour.channels = 3;
+  deep.depth_bits = 32;
+  fine.value_bits = 16;
+  list.left_out("colour", "the light and all casters are grey: one channel",
+                vertex_bytes(coding, colour, done.pieces));
+  list.either(coding.depth_bits == 32, "depths of 32 bits", "the depth tolerance needs 32 bits",
+              "the depth tolerance needs 16 bits", vertex_bytes(coding, deep, done.pieces));
+  list.either(coding.value_bits > 8, "values beyond 8 bits",
+              "epsilon needs " + std::to_string(coding.value_bits) + " bits", "epsilon needs 8 bits",
+              vertex_bytes(coding, fine, done.pieces));
+}
+
+}  // namespace
+
+std::vector<ModelledFeature> list_modelled_features(const BakeJob& job, const TileStatistics& done) {
+  FeatureList list;
+  list_visibility(job, done, list);
+  list_domain(job, list);
+  list_levels(job, list);
+  list_coding(job, done, list);
+  return list.release();
+}
+
+}  // namespace pdsm

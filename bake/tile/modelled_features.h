@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "pdsm/bake/bake.h"
+#include "tile/bake_job.h"
+
+namespace pdsm {
+
+/// What a bake modelled and what it left out, with the reasons and what leaving it out saved.
+[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeJob& job,
+                                                                  const TileStatistics& done);
+
+}  // namespace pdsm

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+
+namespace pdsm {
+
+/// How far behind a caster its shadow begins in a baked map (docs/maths.md, "Bias"), for rays that have to
+/// leave out the same shadows as a bake does.
+struct CasterBias {
+  double constant = 0;  ///< metres
+  double limit = 0;     ///< metres: of planes that are seen edge-on within the reach
+};
+
+/// A point of a light.
+struct LightPoint {
+  glm::dvec3 position{0};  ///< light space, metres
+  /// Within this change of a ray's direction (x/z and y/z) a texel of the point's map stands for the plane of
+  /// what it shows. Only CasterBias asks.
+  std::array<double, 2> reach{};
+};
+
+/// Bias of a caster's plane of normal `n` (any length, light space), seen from `from` along direction `d`
+/// (d.z = 1) at `depth` metres along z.
+[[nodiscard]] inline double bias_of(const CasterBias& bias, const LightPoint& from, const glm::dvec3& n,
+                                    const glm::dvec3& d, double depth) {
+  const double shrink = from.reach[0] * std::abs(n.x) + from.reach[1] * std::abs(n.y);
+  const double left = std::abs(glm::dot(n, d)) - shrink, slope = depth * shrink;
+  return bias.constant + (slope < bias.limit * left ? slope / left : bias.limit);
+}
+
+}  // namespace pdsm

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lights that are on, and what arrives of them.
+struct ViewerLight {
+  vec4 colour;     // linear RGB; w: number of its map, -1 without one
+  vec4 direction;  // unit
+  vec4 points[9];  // equal areas of the emitter; [4] is the centre
+};
+layout(std140) uniform ViewerLights {
+  ivec4 light_count;
+  ViewerLight viewer_lights[64];
+};
+
+// As irradiance() in bake/evaluate/studio.h.
+float irradiance(int light, vec3 position, vec3 normal) {
+  float sum = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    vec3 to_light = viewer_lights[light].points[i].xyz - position;
+    float squared = max(dot(to_light, to_light), 1e-30);
+    float at_surface = max(dot(normal, to_light), 0.0);
+    float at_light = max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0);
+    sum += at_surface * at_light / (squared * squared);
+  }
+  return sum / 9.0;
+}
+
+// What arrives at a point that faces every way: fog, particles.
+float irradiance_around(int light, vec3 position) {
+  vec3 to_light = viewer_lights[light].points[4].xyz - position;
+  float squared = max(dot(to_light, to_light), 1e-30);
+  return max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0) / (squared * sqrt(squared));
+}
+
+float map_visibility(int light, vec3 position, vec3 normal) {
+  int map = int(viewer_lights[light].colour.w);
+  if (map < 0) return 1.0;
+  return pdsm_visibility(map, position, normal, viewport.w * viewport.z * distance(position, eye.xyz));
+}
