@@ -5,16 +5,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "choose/search.h"
 #include "pdsm/bake/bake.h"
 
 /// What is written down about a bake: in the map for good, in the report for those who run it.
 namespace pdsm {
 
 /// The metadata of a baked map. Holds nothing that another run on the same input could change: no times,
-/// threads or tiles. `chosen` is null unless the bake had goals.
+/// threads or tiles.
 [[nodiscard]] std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
-                                        const BakedMap& baked, const ChosenBake* chosen = nullptr);
+                                        const BakedMap& baked);
 
 /// What the command line knows beyond the baker's own report.
 struct BakeCosts {
@@ -24,7 +23,7 @@ struct BakeCosts {
 
 /// The report of one bake (docs/commands.md).
 [[nodiscard]] nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
-                                                 const BakeCosts& costs, const ChosenBake* chosen = nullptr);
+                                                 const BakeCosts& costs);
 
 [[nodiscard]] const char* walk_name(Walk walk);
 

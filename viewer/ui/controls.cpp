@@ -120,7 +120,8 @@ void show_frame_times(const UiState& state) {
   const float median = std::max(times.median(), 1e-3F);
   ImGui::Separator();
   ImGui::PlotLines("##times", times.milliseconds.data(), static_cast<int>(FrameTimes::kCount),
-                   static_cast<int>(times.next), nullptr, 0, kTop * median, {-1, 36});
+                   static_cast<int>(times.next), nullptr, 0, kTop * median,
+                   {ImGui::GetContentRegionAvail().x, 36});
   ImGui::TextDisabled("%.1f ms a frame, %.0f frames a second", static_cast<double>(median),
                       1000.0 / static_cast<double>(median));
 }
