@@ -19,6 +19,8 @@ namespace pdsm {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 60;
+/// What stood still for longer, as while a scene is read, goes on as if it had been this long.
+constexpr double kLongestStep = 0.25;  // seconds
 /// Time between looks at the files.
 constexpr std::chrono::milliseconds kWatchTime{500};
 constexpr int kWatchFrames = 30;  // of fixed length, that long
@@ -62,17 +64,26 @@ void Application::welcome_scene() {
 }
 
 void Application::run() {
-  auto last = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+  };
+  auto last = Clock::now();
   while (!window_.should_close()) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last).count();
-    last = now;
+    // Where swapping does not wait for the display, more frames than these would be for nobody.
+    const WindowEvents events = window_.take_events(kFrameSeconds - since(last));
+    const double seconds = since(last);
+    last = Clock::now();
     state_.times.add(seconds);
-    handle(window_.take_events(), seconds);
-    watch_files();
-    advance(std::min(seconds, 0.25));
-    draw(false);
+    if (!events.dropped.empty()) take_files(events.dropped);
+    if (!interface_.wants_keyboard()) handle_keys(events.pressed, std::min(seconds, kLongestStep));
     interface_.update(session_, state_, seconds);
+    handle_buttons();
+    // Only once the panels lie where they do is known whether the mouse is theirs.
+    if (!interface_.wants_mouse()) handle_mouse(events.mouse);
+    watch_files();
+    advance(std::min(seconds, kLongestStep));
+    draw(false);
     if (screenshot_wanted_ == false) take_screenshot(false);
     draw_interface();
     if (screenshot_wanted_ == true) take_screenshot(true);
@@ -117,49 +128,66 @@ void Application::advance(double seconds) {
   if (!still) seconds_ += seconds;
 }
 
-void Application::handle(const WindowEvents& events, double seconds) {
-  if (!events.dropped.empty()) {
-    const auto version = session_.stage_version();
-    session_.drop(events.dropped);
-    if (session_.stage_version() != version) welcome_scene();
-  }
-  if (!interface_.wants_keyboard()) {
-    for (const int key : events.pressed) handle_key(key);
-  }
+void Application::handle_keys(const std::vector<KeyPress>& pressed, double seconds) {
+  for (const KeyPress& press : pressed) handle_key(press);
+  fly_camera(pressed, seconds);
+}
+
+void Application::handle_buttons() {
   if (state_.frame_scene) frame_scene();
   state_.frame_scene = false;
   if (state_.screenshot) screenshot_wanted_ = state_.screenshot;
   state_.screenshot.reset();
-  if (!interface_.wants_mouse()) {
-    move_camera(events, seconds);
-    if (events.clicked) state_.pinned = surface_under_cursor();
+}
+
+void Application::handle_mouse(const MouseEvents& mouse) {
+  drag_camera(mouse);
+  if (mouse.clicked && shows_function()) state_.pinned = surface_at(*mouse.clicked);
+}
+
+void Application::take_files(const std::vector<std::filesystem::path>& files) {
+  const auto version = session_.stage_version();
+  session_.drop(files);
+  if (session_.stage_version() != version) welcome_scene();
+  const MapLibrary& library = session_.library();
+  if (library.of_light(state_.light) == nullptr && !library.maps().empty()) {
+    state_.light = library.maps().back().light;
   }
 }
 
-void Application::handle_key(int key) {
+void Application::handle_key(const KeyPress& press) {
+  const int key = press.key;
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_6) state_.settings.mode = static_cast<Mode>(key - GLFW_KEY_1);
   if (key == GLFW_KEY_F) frame_scene();
   if (key == GLFW_KEY_P) state_.settings.paused = !state_.settings.paused;
   if (key == GLFW_KEY_H) state_.visible = !state_.visible;
-  if (key == GLFW_KEY_F12) {
-    screenshot_wanted_ = !window_.is_down(GLFW_KEY_LEFT_SHIFT) && !window_.is_down(GLFW_KEY_RIGHT_SHIFT);
-  }
+  if (key == GLFW_KEY_F12) screenshot_wanted_ = !press.shift;
 }
 
-void Application::move_camera(const WindowEvents& events, double seconds) {
-  constexpr double kTurn = 3.0, kFly = 0.8;  // radians over the shorter side; distances a second
-  const glm::dvec2& moved = events.moved;
-  if (window_.is_button_down(GLFW_MOUSE_BUTTON_LEFT)) camera_.orbit(kTurn * moved.x, -kTurn * moved.y);
-  if (window_.is_button_down(GLFW_MOUSE_BUTTON_MIDDLE)) camera_.pan(moved.x, -moved.y);
-  if (events.scrolled != 0) camera_.approach(events.scrolled);
-  if (!window_.is_button_down(GLFW_MOUSE_BUTTON_RIGHT)) return;
-  camera_.look(0.5 * kTurn * moved.x, -0.5 * kTurn * moved.y);
-  const auto held = [this](int forth, int back) {
-    return static_cast<double>(window_.is_down(forth)) - static_cast<double>(window_.is_down(back));
+void Application::drag_camera(const MouseEvents& mouse) {
+  constexpr double kTurn = 3.0;  // radians over the shorter side
+  const glm::ivec2 size = window_.framebuffer_size();
+  const double shorter = std::max(1, std::min(size.x, size.y));
+  const auto way = [&](MouseButton button) { return mouse.drag(button) / shorter; };
+  const glm::dvec2 orbit = way(MouseButton::left), pan = way(MouseButton::middle);
+  const glm::dvec2 look = way(MouseButton::right);
+  if (orbit != glm::dvec2(0)) camera_.orbit(kTurn * orbit.x, -kTurn * orbit.y);
+  if (pan != glm::dvec2(0)) camera_.pan(pan.x, -pan.y);
+  if (look != glm::dvec2(0)) camera_.look(0.5 * kTurn * look.x, -0.5 * kTurn * look.y);
+  if (mouse.scrolled != 0) camera_.approach(mouse.scrolled);
+}
+
+void Application::fly_camera(const std::vector<KeyPress>& pressed, double seconds) {
+  constexpr double kFly = 0.8;  // distances to the target a second
+  // A tap may be shorter than a frame.
+  const auto held = [&](int key) {
+    return window_.is_down(key) ||
+           std::any_of(pressed.begin(), pressed.end(), [key](const KeyPress& p) { return p.key == key; });
   };
-  camera_.fly(
-      kFly * seconds *
-      glm::dvec3(held(GLFW_KEY_D, GLFW_KEY_A), held(GLFW_KEY_E, GLFW_KEY_Q), held(GLFW_KEY_W, GLFW_KEY_S)));
+  const auto along = [&](int forth, int back) { return static_cast<double>(held(forth)) - held(back); };
+  const glm::dvec3 way(along(GLFW_KEY_D, GLFW_KEY_A), along(GLFW_KEY_E, GLFW_KEY_Q),
+                       along(GLFW_KEY_W, GLFW_KEY_S));
+  if (way != glm::dvec3(0)) camera_.fly(kFly * seconds * way);
 }
 
 void Application::watch_files() {
@@ -193,7 +221,7 @@ void Application::draw(bool truth_at_once) {
   view.light = state_.light;
   view.truth_at_once = truth_at_once;
   update_probe();
-  if (state_.settings.mode == Mode::function || state_.settings.plot) view.probe = state_.probe;
+  view.probe = state_.probe;
   renderer_.draw(session_, state_.settings, view);
 
   const TruthOverlay& truth = renderer_.truth();
@@ -206,24 +234,31 @@ void Application::draw(bool truth_at_once) {
 
 void Application::draw_interface() {
   renderer_.targets().bind_output();
-  if (state_.visible) interface_.draw();
+  interface_.draw();
 }
 
 std::optional<glm::dvec3> Application::surface_under_cursor() const {
-  if (!session_.stage()) return std::nullopt;
-  const glm::ivec2 size = window_.framebuffer_size();
   // Nobody points at a hidden window: its middle stands in.
-  const glm::dvec2 cursor = arguments_.screenshot ? 0.5 * glm::dvec2(size) : window_.cursor();
-  const CameraRays rays(camera_.camera(), static_cast<std::uint32_t>(std::max(size.x, 1)),
-                        static_cast<std::uint32_t>(std::max(size.y, 1)));
+  return surface_at(arguments_.screenshot ? 0.5 * glm::dvec2(window_.framebuffer_size()) : window_.cursor());
+}
+
+std::optional<glm::dvec3> Application::surface_at(const glm::dvec2& place) const {
+  if (!session_.stage()) return std::nullopt;
+  const glm::ivec2 size = glm::max(window_.framebuffer_size(), glm::ivec2(1));
+  const CameraRays rays(camera_.camera(), static_cast<std::uint32_t>(size.x),
+                        static_cast<std::uint32_t>(size.y));
   const auto point =
-      session_.stage()->picture().trace(camera_.camera().eye, rays.direction(cursor.x, cursor.y));
+      session_.stage()->picture().trace(camera_.camera().eye, rays.direction(place.x, place.y));
   return point ? std::optional(point->position) : std::nullopt;
+}
+
+bool Application::shows_function() const {
+  return state_.settings.mode == Mode::function || state_.settings.plot;
 }
 
 void Application::update_probe() {
   state_.probe.reset();
-  if (state_.settings.mode != Mode::function && !state_.settings.plot) return;
+  if (!shows_function()) return;
   const LoadedMap* map = session_.library().of_light(state_.light);
   const bool over_panel = !arguments_.screenshot && interface_.wants_mouse();
   std::optional<glm::dvec3> point = state_.pinned;

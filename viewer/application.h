@@ -30,14 +30,20 @@ class Application {
   void frame_scene();
   void welcome_scene();
   void advance(double seconds);
-  void handle(const WindowEvents& events, double seconds);
-  void handle_key(int key);
-  void move_camera(const WindowEvents& events, double seconds);
+  void handle_keys(const std::vector<KeyPress>& pressed, double seconds);
+  void handle_buttons();
+  void handle_mouse(const MouseEvents& mouse);
+  void handle_key(const KeyPress& press);
+  void drag_camera(const MouseEvents& mouse);
+  void fly_camera(const std::vector<KeyPress>& pressed, double seconds);
+  void take_files(const std::vector<std::filesystem::path>& files);
   void watch_files();
   void synchronize();
   void draw(bool truth_at_once);
   void draw_interface();
   [[nodiscard]] std::optional<glm::dvec3> surface_under_cursor() const;
+  [[nodiscard]] std::optional<glm::dvec3> surface_at(const glm::dvec2& place) const;
+  [[nodiscard]] bool shows_function() const;
   void update_probe();
   void take_screenshot(bool with_interface);
 

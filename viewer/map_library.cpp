@@ -43,6 +43,11 @@ std::vector<Fact> map_facts(const LoadedMap& loaded) {
   return facts;
 }
 
+void note_change(const Scene& scene, const LoadedMap& loaded, Messages& messages) {
+  if (!changed_since_bake(scene, loaded.map)) return;
+  messages.note("warning: " + loaded.path.string() + ": the scene has changed since the bake");
+}
+
 }  // namespace
 
 const LoadedMap* MapLibrary::of_light(std::size_t light) const {
@@ -72,9 +77,7 @@ void MapLibrary::add(const std::filesystem::path& path, const Scene& scene, bool
     throw Error(Failure::usage, path.string(),
                 "is a second map of light '" + scene.lights[loaded.light].name + "'");
   }
-  if (changed_since_bake(scene, loaded.map)) {
-    messages.note("warning: " + path.string() + ": the scene has changed since the bake");
-  }
+  note_change(scene, loaded, messages);
   if (same_light != maps_.end()) {
     *same_light = std::move(loaded);
   } else {
@@ -106,6 +109,7 @@ bool MapLibrary::refresh_map(std::size_t index, const Scene& scene, Messages& me
     return false;
   }
   messages.note(old.path.string() + ": read anew");
+  note_change(scene, old, messages);
   return true;
 }
 

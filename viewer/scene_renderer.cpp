@@ -10,6 +10,7 @@
 #include "frame_block.h"
 #include "gizmo.h"
 #include "pdsm/bake/view_fit.h"
+#include "pdsm/format/error.h"
 
 namespace pdsm {
 namespace {
@@ -30,6 +31,17 @@ GlTexture make_heat_texture() {
 
 bool wants_truth(Mode mode) {
   return mode == Mode::truth || mode == Mode::error;
+}
+
+/// Without a map, what the baker would take; it depends on the geometry alone.
+double fitted_near(const Scene& scene, std::size_t number) {
+  const Light& light = scene.lights[number];
+  try {
+    return fit_view(scene, light, 64, 64).view.near_depth;
+  } catch (const Error&) {
+    // No map can be baked of this light; it shines all the same.
+    return light.near_depth.value_or(0);
+  }
 }
 
 /// How much of the scene's own look is left in this mode, beside what is drawn over it.
@@ -56,14 +68,15 @@ void SceneRenderer::synchronize(const Session& session, const Settings& settings
     stage_version_ = session.stage_version();
     fitted_near_.clear();
   }
-  const bool new_layout = layout_ != settings.layout;
-  if (!new_stage && !new_layout && session.map_version() == map_version_) return;
+  if (!new_stage && asked_layout_ == settings.layout && session.map_version() == map_version_) return;
+  // What does not fit is not tried again before something changes.
+  asked_layout_ = settings.layout;
   map_version_ = session.map_version();
   std::vector<const PenumbraMap*> maps;
   for (const LoadedMap& loaded : session.library().maps()) maps.push_back(&loaded.map);
   const glm::dvec3& origin = session.stage()->origin();
   shadows_.upload(maps, settings.layout, {origin.x, origin.y, origin.z});
-  if (new_layout) programs_ = make_programs(shadows_.shader_text());
+  if (layout_ != settings.layout) programs_ = make_programs(shadows_.shader_text());
   layout_ = settings.layout;
 }
 
@@ -226,9 +239,7 @@ double SceneRenderer::near_depth(const Session& session, std::size_t light) {
   if (map != nullptr) return map->map.views.front().near_depth;
   const auto known = fitted_near_.find(light);
   if (known != fitted_near_.end()) return known->second;
-  // Without a map, what the baker would take; it depends on the geometry alone.
-  const Scene& scene = session.stage()->scene();
-  return fitted_near_[light] = fit_view(scene, scene.lights[light], 64, 64).view.near_depth;
+  return fitted_near_[light] = fitted_near(session.stage()->scene(), light);
 }
 
 void SceneRenderer::update_truth(const Session& session, const Settings& settings, const FrameView& view) {

@@ -75,8 +75,8 @@ class SceneRenderer {
   GlTexture heat_;
 
   std::uint64_t stage_version_ = 0, map_version_ = 0;
-  std::optional<TextureLayout> layout_;
-  std::map<std::size_t, double> fitted_near_;  // metres, of lights without a map
+  std::optional<TextureLayout> asked_layout_, layout_;  // tried last; of the programs and maps that are shown
+  std::map<std::size_t, double> fitted_near_;           // metres, of lights without a map
 
   PictureKey key_, still_key_;
   int pictures_ = 0;  // that were averaged for key_

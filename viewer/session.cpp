@@ -59,14 +59,19 @@ void Session::replace_stage(std::shared_ptr<const Stage> stage, MapLibrary libra
 void Session::drop_scene(const std::filesystem::path& scene_file) {
   try {
     auto stage = std::make_shared<const Stage>(scene_file);
-    std::vector<std::filesystem::path> candidates = std::exchange(waiting_, {});
-    for (const LoadedMap& map : library_.maps()) candidates.push_back(map.path);
     MapLibrary library;
-    for (const std::filesystem::path& file : candidates) {
+    for (const std::filesystem::path& file : std::exchange(waiting_, {})) {
       try {
         library.add(file, stage->scene(), true, messages_);
       } catch (const Error& error) {
         messages_.fault(error.what());
+      }
+    }
+    for (const LoadedMap& map : library_.maps()) {
+      try {
+        library.add(map.path, stage->scene(), true, messages_);
+      } catch (const Error& error) {
+        messages_.note(std::string(error.what()) + "; left out");  // no wonder: it is of the old scene
       }
     }
     replace_stage(std::move(stage), std::move(library));

@@ -6,7 +6,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "pdsm/format/error.h"
@@ -20,8 +20,20 @@ std::string last_reason(const std::string& otherwise) {
   return glfwGetError(&description) != GLFW_NO_ERROR && description != nullptr ? description : otherwise;
 }
 
-WindowEvents& events_of(GLFWwindow* window) {
-  return *static_cast<WindowEvents*>(glfwGetWindowUserPointer(window));
+/// Pixels of the framebuffer a unit of the window.
+double scale_of(GLFWwindow* window) {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window, &width, &height);
+  int pixels = 0;
+  glfwGetFramebufferSize(window, &pixels, &height);
+  return width > 0 ? static_cast<double>(pixels) / width : 1.0;
+}
+
+std::optional<MouseButton> known_button(int button) {
+  if (button == GLFW_MOUSE_BUTTON_LEFT) return MouseButton::left;
+  if (button == GLFW_MOUSE_BUTTON_RIGHT) return MouseButton::right;
+  if (button == GLFW_MOUSE_BUTTON_MIDDLE) return MouseButton::middle;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -49,19 +61,34 @@ Window::Window(const std::string& title, int width, int height, bool visible) {
   if (!window_) throw Error(Failure::resource, "display", last_reason("has no OpenGL 3.3"));
   glfwMakeContextCurrent(window_.get());
   glfwSwapInterval(visible ? 1 : 0);
-  last_cursor_ = cursor();
   listen();
 }
 
+Window::Pending& Window::pending_of(GLFWwindow* window) {
+  return *static_cast<Pending*>(glfwGetWindowUserPointer(window));
+}
+
 void Window::listen() {
-  glfwSetWindowUserPointer(window_.get(), &events_);
-  glfwSetKeyCallback(window_.get(), [](GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS) events_of(window).pressed.push_back(key);
+  pending_.mouse.move(cursor());
+  glfwSetWindowUserPointer(window_.get(), &pending_);
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* window, int key, int, int action, int modifiers) {
+    if (action != GLFW_PRESS) return;
+    pending_of(window).events.pressed.push_back({key, (modifiers & GLFW_MOD_SHIFT) != 0});
   });
-  glfwSetScrollCallback(
-      window_.get(), [](GLFWwindow* window, double, double steps) { events_of(window).scrolled += steps; });
+  glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* window, double x, double y) {
+    pending_of(window).mouse.move(scale_of(window) * glm::dvec2(x, y));
+  });
+  glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* window, int number, int action, int) {
+    const std::optional<MouseButton> button = known_button(number);
+    if (!button) return;
+    MouseTrack& mouse = pending_of(window).mouse;
+    action == GLFW_PRESS ? mouse.press(*button) : mouse.release(*button);
+  });
+  glfwSetScrollCallback(window_.get(), [](GLFWwindow* window, double, double steps) {
+    pending_of(window).mouse.scroll(steps);
+  });
   glfwSetDropCallback(window_.get(), [](GLFWwindow* window, int count, const char** paths) {
-    for (int i = 0; i < count; ++i) events_of(window).dropped.emplace_back(paths[i]);
+    for (int i = 0; i < count; ++i) pending_of(window).events.dropped.emplace_back(paths[i]);
   });
 }
 
@@ -72,9 +99,7 @@ glm::ivec2 Window::framebuffer_size() const {
 }
 
 double Window::scale() const {
-  int width = 0, height = 0;
-  glfwGetWindowSize(window_.get(), &width, &height);
-  return width > 0 ? static_cast<double>(framebuffer_size().x) / width : 1.0;
+  return scale_of(window_.get());
 }
 
 double Window::interface_scale() const {
@@ -91,28 +116,17 @@ bool Window::is_down(int key) const {
   return glfwGetKey(window_.get(), key) == GLFW_PRESS;
 }
 
-bool Window::is_button_down(int button) const {
-  return glfwGetMouseButton(window_.get(), button) == GLFW_PRESS;
-}
-
 glm::dvec2 Window::cursor() const {
   glm::dvec2 place(0);
   glfwGetCursorPos(window_.get(), &place.x, &place.y);
   return place * scale();
 }
 
-WindowEvents Window::take_events() {
-  constexpr double kStillAClick = 4;  // pixels
-  const bool was_down = is_button_down(GLFW_MOUSE_BUTTON_LEFT);
-  glfwPollEvents();
-  const glm::dvec2 place = cursor();
-  const bool is_down_now = is_button_down(GLFW_MOUSE_BUTTON_LEFT);
-  if (!was_down && is_down_now) press_ = place;
-  events_.clicked = was_down && !is_down_now && glm::distance(press_, place) <= kStillAClick;
-  const glm::ivec2 size = framebuffer_size();
-  events_.moved = (place - last_cursor_) / static_cast<double>(std::max(1, std::min(size.x, size.y)));
-  last_cursor_ = place;
-  return std::exchange(events_, {});
+WindowEvents Window::take_events(double seconds) {
+  seconds > 0 ? glfwWaitEventsTimeout(seconds) : glfwPollEvents();
+  WindowEvents events = std::exchange(pending_.events, {});
+  events.mouse = pending_.mouse.take();
+  return events;
 }
 
 void Window::swap() const {

@@ -8,17 +8,23 @@
 #include <string>
 #include <vector>
 
+#include "mouse_track.h"
+
 struct GLFWwindow;
 
 namespace pdsm {
 
+/// A key that went down; repeats are left out.
+struct KeyPress {
+  int key = 0;  ///< GLFW's number
+  bool shift = false;
+};
+
 /// What happened in the window since it was last asked.
 struct WindowEvents {
-  std::vector<int> pressed;  ///< keys, GLFW's numbers; repeats left out
+  std::vector<KeyPress> pressed;
   std::vector<std::filesystem::path> dropped;
-  bool clicked = false;  ///< the left button went up about where it went down
-  double scrolled = 0;   ///< steps, away from the person
-  glm::dvec2 moved{0};   ///< of the cursor, in units of the window's shorter side; y down
+  MouseEvents mouse;
 };
 
 /// A window with an OpenGL 3.3 core context, current on the thread that made it. One at a time.
@@ -37,12 +43,11 @@ class Window {
   [[nodiscard]] double interface_scale() const;
   [[nodiscard]] bool should_close() const;
   [[nodiscard]] bool is_down(int key) const;
-  [[nodiscard]] bool is_button_down(int button) const;
   /// The cursor in pixels of the framebuffer from the upper left.
   [[nodiscard]] glm::dvec2 cursor() const;
 
-  /// Polls, and hands over what came.
-  [[nodiscard]] WindowEvents take_events();
+  /// Hands over what came; waits up to `seconds` for something to come.
+  [[nodiscard]] WindowEvents take_events(double seconds = 0);
   void swap() const;
 
  private:
@@ -57,12 +62,17 @@ class Window {
     void operator()(GLFWwindow* window) const;
   };
 
+  struct Pending {
+    WindowEvents events;
+    MouseTrack mouse;
+  };
+
   void listen();
+  [[nodiscard]] static Pending& pending_of(GLFWwindow* window);
 
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
-  WindowEvents events_;
-  glm::dvec2 last_cursor_{0}, press_{0};
+  Pending pending_;
 };
 
 }  // namespace pdsm

@@ -146,5 +146,14 @@ TEST_F(ModePictures, LayoutsAgreeAndFiltersDiffer) {
   EXPECT_LT(nearest.mean, 0.02);
 }
 
+TEST_F(ModePictures, TruthOfALightThatNoMapCanBeBakedOf) {
+  // Nothing lies behind its near depth: without a map it shines all the same, and all of it is blocked by
+  // nothing that counts.
+  write("far.scene.json", R"({ "geometry": [ { "file": "plate.obj" }, { "file": "floor.obj" } ], "lights": [
+    { "name": "key", "type": "rect", "position": [0, 4, 0], "direction": [0, -1, 0], "width": 1, "height": 1,
+      "near": 100 } ] })");
+  EXPECT_GT(brightness(picture({"far.scene.json", "--mode", "truth"})), 0.1);
+}
+
 }  // namespace
 }  // namespace pdsm

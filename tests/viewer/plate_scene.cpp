@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plate_scene.h"
 
+#include <fmt/format.h>
 #include <stdlib.h>
 
 #include <algorithm>
@@ -43,7 +44,8 @@ void bake_light(const std::string& scene_file, std::size_t light, const std::str
   options.samples = 128;
   options.width = options.height = 192;
   BakedMap baked = bake(scene, scene.lights[light], options);
-  baked.map.metadata = R"({ "light": { "name": ")" + scene.lights[light].name + R"(" } })";
+  baked.map.metadata = fmt::format(R"({{ "light": {{ "name": "{}" }}, "input_hash": "{:016x}" }})",
+                                   scene.lights[light].name, scene.content_hash);
   write_encoded_map(baked.map, baked.blocks, scratch_folder / name);
 }
 
@@ -59,6 +61,7 @@ void PlateScene::SetUpTestSuite() {
   write("plate.scene.json", scene_text(plate + ", " + floor, kKey));
   write("bare.scene.json", scene_text(floor, kKey));
   write("two.scene.json", scene_text(plate + ", " + floor, std::string(kKey) + ", " + kLamp));
+  write("lamp.scene.json", scene_text(plate + ", " + floor, kLamp));
   bake_light("plate.scene.json", 0, "baked.pdsm");
   bake_light("bare.scene.json", 0, "empty.pdsm");
   bake_light("two.scene.json", 1, "lamp.pdsm");

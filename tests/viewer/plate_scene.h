@@ -18,7 +18,7 @@ namespace pdsm {
 
 /// A folder with plate.scene.json (a plate of 2 x 2 m at y = 1 over a floor, a light "key" of 1 x 1 m at y =
 /// 4) and its map key.pdsm; empty.pdsm, a map of the same light without any shadow; two.scene.json with a
-/// light "lamp" too, and its map lamp.pdsm. Baked once for all tests.
+/// light "lamp" too, and its map lamp.pdsm; lamp.scene.json with that light alone. Baked once for all tests.
 class PlateScene : public ::testing::Test {
  protected:
   static void SetUpTestSuite();

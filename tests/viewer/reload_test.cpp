@@ -31,7 +31,7 @@ TEST_F(Reload, ReplacedMapIsTaken) {
   const RgbImage before = picture({"--mode", "visibility"});
   const ViewerOutcome outcome = run_with_change([] { copy("empty.pdsm", "key.pdsm"); });
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.err, "key.pdsm: read anew\n");
+  EXPECT_EQ(outcome.err, "key.pdsm: read anew\nwarning: key.pdsm: the scene has changed since the bake\n");
   const RgbImage after = read_png(path("shot.png"));
   EXPECT_GT(compare(before, after).max, 0.9);
   // The map without shadow was in place from the start here.

@@ -133,7 +133,8 @@ void show_function_plot(const Session& session, UiState& state) {
     draw_plot(*state.probe);
     show_numbers(*state.probe);
   } else {
-    ImGui::TextDisabled("nothing under the cursor that a map of this light covers");
+    ImGui::TextDisabled("nothing %s that a map of this light covers",
+                        state.pinned ? "at the pin" : "under the cursor");
   }
   if (state.pinned) {
     if (ImGui::SmallButton("unpin")) state.pinned.reset();

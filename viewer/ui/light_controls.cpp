@@ -18,7 +18,10 @@ void show_light(Session& session, UiState& state, std::size_t index) {
   ImGui::SetNextItemWidth(6.5F * unit);
   ImGui::SliderFloat("##intensity", &control.intensity, 0, 4, "x %.2f");
   ImGui::SameLine();
-  if (ImGui::Selectable(light.name.c_str(), state.light == index)) state.light = index;
+  // Names are no labels: ImGui would take parts of them for its own.
+  if (ImGui::Selectable("##chosen", state.light == index)) state.light = index;
+  ImGui::SameLine(0, 0);
+  ImGui::TextUnformatted(light.name.c_str());
   ImGui::PopID();
 }
 

@@ -11,6 +11,18 @@
 #include "ui/theme.h"
 
 namespace pdsm {
+namespace {
+
+void show_panels(Session& session, UiState& state) {
+  if (session.stage()) {
+    show_controls(session, state);
+    show_colour_scale(state);
+    if (state.settings.plot || state.settings.mode == Mode::function) show_function_plot(session, state);
+  }
+  show_messages(session);
+}
+
+}  // namespace
 
 UserInterface::UserInterface(GLFWwindow* window, float scale) {
   ImGui::CreateContext();
@@ -32,12 +44,8 @@ void UserInterface::update(Session& session, UiState& state, double seconds) {
   // The application's own time, which is fixed for screenshots.
   ImGui::GetIO().DeltaTime = static_cast<float>(std::max(seconds, 1e-4));
   ImGui::NewFrame();
-  if (session.stage()) {
-    show_controls(session, state);
-    show_colour_scale(state);
-    if (state.settings.plot || state.settings.mode == Mode::function) show_function_plot(session, state);
-  }
-  show_messages(session);
+  // Hidden panels are not there at all: they would take the mouse.
+  if (state.visible) show_panels(session, state);
   ImGui::Render();
 }
 
