@@ -5,11 +5,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <vector>
 
 #include "pdsm/bake/scene.h"
 #include "pdsm/format/penumbra_map.h"
-#include "truth/world_scene.h"
+#include "truth/lit_surfaces.h"
 
 namespace pdsm {
 
@@ -26,8 +25,7 @@ class LastReceivers {
  private:
   const Scene& scene_;
   View view_;
-  WorldScene world_;
-  std::vector<float> outward_;  ///< of each geometry: sign of its normals; 0 where both sides count
+  LitSurfaces surfaces_;
 };
 
 }  // namespace pdsm

@@ -51,14 +51,12 @@ double area(const std::array<glm::dvec3, 3>& corners) {
 }
 
 void append_candidates(const Geometry& geometry, const View& view, std::vector<Candidate>& candidates) {
-  const bool mirrored = glm::determinant(glm::dmat3(geometry.local_to_world)) < 0;
   for (const glm::uvec3& triangle : geometry.mesh->triangles) {
     Candidate candidate{{}, !geometry.mesh->closed};
     for (int c = 0; c < 3; ++c) {
       const glm::vec3& local = geometry.mesh->positions[triangle[c]];
       candidate.corners[static_cast<std::size_t>(c)] = apply(view.world_to_view, to_world(geometry, local));
     }
-    if (mirrored) std::swap(candidate.corners[1], candidate.corners[2]);
     const double size = area(candidate.corners);
     if (!std::isfinite(size) || size <= 0 || misses_window(view, candidate.corners)) continue;
     if (candidate.both_sides || faces_light(view, candidate.corners)) candidates.push_back(candidate);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tile/sample_bias.h"
+#include "trace/surface_bias.h"
 #include "truth/shadow_rays.h"
 
 namespace pdsm {
@@ -34,7 +35,13 @@ SampleRayValues trace_sample_rays(const Scene& scene, const Light& light, const 
   const View& view = job.fitted.view;
   const ShadowRays rays(scene, light, view.near_depth);
   const std::vector<LightPoint> samples = points_of(job);
-  const CasterBias bias{job.bias, view.far_depth};
+  const LitSurfaces behind(scene);
+  const CasterBias bias{job.bias,
+                        view.far_depth,
+                        &behind,
+                        SurfaceBias::kWayToNext,
+                        SurfaceBias::kSameSurface,
+                        SurfaceBias::kLeastGap};
   SampleRayValues values;
   for (std::vector<double>* of : {&values.at_point, &values.biased, &values.filtered})
     of->resize(points.size());

@@ -49,7 +49,7 @@ float end_depth(const EmbreeScene& scene, const MapGrid& grid, const RTCRayHit16
 void find_domain_ends(const EmbreeScene& scene, const MapGrid& grid, const TexelRect& rect,
                       std::span<float> ends) {
   assert(ends.size() == rect.area());
-  ReceiverContext receiver;
+  ReceiverContext receiver(Heading::to_light);
   alignas(64) int valid[kPacketRays];
   RTCRayHit16 packet;
   std::size_t next = 0;

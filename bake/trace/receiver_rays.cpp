@@ -9,8 +9,8 @@ namespace {
 /// Rays start this share of far behind far; traced depths are this near to the truth at the least.
 constexpr double kBehindFar = 1e-3;
 
-/// Rays run towards the light, so a light-facing surface is met from behind: its outward normal points
-/// along the ray.
+/// A light-facing surface's outward normal points along a ray to the light, and against one from it.
+template <Heading heading>
 void keep_light_facing(const RTCFilterFunctionNArguments* args) {
   const auto* mesh = static_cast<const LightSpaceMesh*>(args->geometryUserPtr);
   if (!mesh->closed) return;
@@ -20,16 +20,17 @@ void keep_light_facing(const RTCFilterFunctionNArguments* args) {
     const float along = RTCRayN_dir_x(args->ray, n, lane) * RTCHitN_Ng_x(args->hit, n, lane) +
                         RTCRayN_dir_y(args->ray, n, lane) * RTCHitN_Ng_y(args->hit, n, lane) +
                         RTCRayN_dir_z(args->ray, n, lane) * RTCHitN_Ng_z(args->hit, n, lane);
-    if (along <= 0) args->valid[lane] = 0;
+    if (heading == Heading::to_light ? along <= 0 : along >= 0) args->valid[lane] = 0;
   }
 }
 
 }  // namespace
 
-ReceiverContext::ReceiverContext() {
+ReceiverContext::ReceiverContext(Heading heading) {
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.filter = keep_light_facing;
+  context.filter = heading == Heading::to_light ? keep_light_facing<Heading::to_light>
+                                                : keep_light_facing<Heading::from_light>;
 }
 
 double receiver_ray_start(const MapGrid& grid) {

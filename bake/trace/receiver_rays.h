@@ -6,16 +6,18 @@
 #include "trace/embree_scene.h"
 #include "walk/map_grid.h"
 
-/// Rays that run along PDSM rays towards the light and meet light-facing receiver surfaces.
+/// Rays that meet light-facing receiver surfaces.
 namespace pdsm {
+
+enum class Heading { to_light, from_light };
 
 /// A context whose filter rejects surfaces of closed meshes that face away from the light.
 struct ReceiverContext {
-  ReceiverContext();
+  explicit ReceiverContext(Heading heading);
   RTCIntersectContext context;
 };
 
-/// Depth from which such rays start: a little behind far, so that a surface at far is met.
+/// Depth from which rays to the light start: a little behind far, so that a surface at far is met.
 [[nodiscard]] double receiver_ray_start(const MapGrid& grid);
 
 /// The plane of a triangle on the PDSM ray of slope (u, v).

@@ -8,6 +8,7 @@ namespace pdsm {
 namespace {
 
 constexpr int kPacketRays = kPacketEdge * kPacketEdge;
+static_assert(kPacketRays == SurfaceBias::kLanes);
 /// Lanes that a walk may load behind a row's last ray.
 constexpr std::size_t kLoadPadding = 16;
 
@@ -57,36 +58,13 @@ struct RayGenerator {
   }
 };
 
-/// On the plane n . P = c the depth along direction d is t = c / (n . d), and d changes with the focus-plane
-/// slope a by 1 / lambda (see ray_path.h). Within r texels of pitch p of a hit, n . d shrinks by at most
-/// R = (r_x p_x |n_x| + r_y p_y |n_y|) / lambda, so the plane is at most t R / (|n . d| - R) behind it.
-struct BiasRule {
-  float constant, reach_x, reach_y, limit;
-
-  BiasRule(const MapGrid& grid, const LightSample& sample, const MapBias& bias)
-      : constant(static_cast<float>(bias.constant)), limit(static_cast<float>(grid.far_depth)) {
-    const double lambda = (grid.focus_depth - sample.position[2]) / grid.focus_depth;
-    reach_x = static_cast<float>(bias.reach[0] * grid.pitch[0] / lambda);
-    reach_y = static_cast<float>(bias.reach[1] * grid.pitch[1] / lambda);
-  }
-
-  [[nodiscard]] float slope_bias(const RTCRayHit16& packet, int lane) const {
-    const float nx = packet.hit.Ng_x[lane], ny = packet.hit.Ng_y[lane], nz = packet.hit.Ng_z[lane];
-    const float facing = std::abs(nx * packet.ray.dir_x[lane] + ny * packet.ray.dir_y[lane] + nz);
-    const float shrink = reach_x * std::abs(nx) + reach_y * std::abs(ny);
-    const float behind = packet.ray.tfar[lane] * shrink, left = facing - shrink;
-    // Written so that a plane that is seen edge-on within the reach, and a sliver's NaN, take the limit.
-    return behind < limit * left ? behind / left : limit;
-  }
-};
-
-void store(const RTCRayHit16& packet, const BiasRule& rule, float origin_z, std::int32_t x0, std::int32_t y0,
-           SampleMap& map, SlopeBiasStatistics& statistics) {
+void store(const RTCRayHit16& packet, const SurfaceBias& bias, float origin_z, std::int32_t x0,
+           std::int32_t y0, SampleMap& map, SlopeBiasStatistics& statistics) {
   alignas(64) float depths[kPacketRays], slopes[kPacketRays];
+  bias.slope_biases(packet, slopes);
   for (int lane = 0; lane < kPacketRays; ++lane) {
     const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-    slopes[lane] = hit ? rule.slope_bias(packet, lane) : 0.0F;
-    const float depth = origin_z + packet.ray.tfar[lane] + rule.constant + slopes[lane];
+    const float depth = origin_z + packet.ray.tfar[lane] + bias.constant() + slopes[lane];
     depths[lane] = hit ? depth : std::numeric_limits<float>::infinity();
   }
   map.set_packet(x0, y0, depths);
@@ -148,7 +126,7 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
                                const MapBias& bias, const PacketMask* mask, SampleMap& map,
                                SlopeBiasStatistics& statistics) {
   const RayGenerator rays(grid, sample);
-  const BiasRule rule(grid, sample, bias);
+  const SurfaceBias surface_bias(scene, grid, sample, bias);
   const auto origin_z = static_cast<float>(sample.position[2]);
   alignas(64) int valid[kPacketRays];
   std::fill(std::begin(valid), std::end(valid), -1);
@@ -163,7 +141,7 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
       if (mask != nullptr && !mask->is_wanted(x, y)) continue;
       rays.fill(packet, x, y);
       rtcIntersect16(valid, scene.handle(), &context, &packet);
-      store(packet, rule, origin_z, x, y, map, statistics);
+      store(packet, surface_bias, origin_z, x, y, map, statistics);
       traced += kPacketRays;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "pdsm/format/penumbra_map.h"
 #include "trace/embree_scene.h"
+#include "trace/surface_bias.h"
 #include "walk/map_grid.h"
 
 namespace pdsm {
@@ -83,14 +84,6 @@ class SampleMap {
   TexelRect rect_;
   std::int64_t interleave_ = 1, plane_ = 0, pitch_ = 0;
   std::vector<float> depth_;
-};
-
-/// What is added to a map's depths so that a lit surface does not shadow itself. A map texel stands for
-/// all points of the surface within `reach` texels of its centre; on a plane these are at most
-/// `reach` times the depth's slope per texel behind it.
-struct MapBias {
-  double constant = 0;                    ///< metres, the same everywhere
-  std::array<double, 2> reach{0.5, 0.5};  ///< map texels along x and y
 };
 
 /// Sums of the slope bias that was added, for the report.

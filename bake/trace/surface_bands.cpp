@@ -17,7 +17,7 @@ using Bands = std::vector<DepthBand>;
 /// Bands of all light-facing receiver surfaces on one PDSM ray, unsorted.
 void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, double v, double margin,
                    Bands& bands) {
-  ReceiverContext receiver;
+  ReceiverContext receiver(Heading::to_light);
   const double texel_u = grid.pitch[0] * grid.ratio[0].maps_per_texel(),
                texel_v = grid.pitch[1] * grid.ratio[1].maps_per_texel();
   double start = receiver_ray_start(grid);

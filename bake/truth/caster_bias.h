@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "truth/lit_surfaces.h"
+
 namespace pdsm {
 
 /// How far behind a caster its shadow begins in a baked map (docs/maths.md, "Bias"), for rays that have to
@@ -12,6 +14,10 @@ namespace pdsm {
 struct CasterBias {
   double constant = 0;  ///< metres
   double limit = 0;     ///< metres: of planes that are seen edge-on within the reach
+  /// What the slope adds ends `way_to_next` of the way to the next of these behind the caster, those nearer
+  /// than `least_gap` of the depth and `same_surface` of the constant left out. Null: nowhere.
+  const LitSurfaces* behind = nullptr;
+  double way_to_next = 1, same_surface = 0, least_gap = 0;
 };
 
 /// A point of a light.
@@ -22,13 +28,13 @@ struct LightPoint {
   std::array<double, 2> reach{};
 };
 
-/// Bias of a caster's plane of normal `n` (any length, light space), seen from `from` along direction `d`
-/// (d.z = 1) at `depth` metres along z.
-[[nodiscard]] inline double bias_of(const CasterBias& bias, const LightPoint& from, const glm::dvec3& n,
-                                    const glm::dvec3& d, double depth) {
+/// What the slope of a caster's plane of normal `n` (any length, light space) adds, metres; seen from `from`
+/// along direction `d` (d.z = 1) at `depth` metres along z.
+[[nodiscard]] inline double slope_bias(const CasterBias& bias, const LightPoint& from, const glm::dvec3& n,
+                                       const glm::dvec3& d, double depth) {
   const double shrink = from.reach[0] * std::abs(n.x) + from.reach[1] * std::abs(n.y);
   const double left = std::abs(glm::dot(n, d)) - shrink, slope = depth * shrink;
-  return bias.constant + (slope < bias.limit * left ? slope / left : bias.limit);
+  return slope < bias.limit * left ? slope / left : bias.limit;
 }
 
 }  // namespace pdsm

@@ -25,8 +25,9 @@ bool is_caster(const Geometry& geometry) {
 
 /// Rays from one point to up to 16 light points, `t` from 0 at the point to 1 at the light.
 struct ShadowRays::Packet {
-  glm::vec3 origin;
-  double depth;  ///< of the point, light space
+  glm::dvec3 world_point;
+  glm::vec3 origin;  ///< the point, from the casters' centre
+  double depth;      ///< of the point, light space
   std::uint32_t size = 0;
   std::array<glm::vec3, kPacketSize> direction;
   std::array<float, kPacketSize> end;
@@ -49,9 +50,17 @@ struct ShadowRays::BiasedContext {
   /// Whether a caster met at `t` by the ray of `lane` is so near that its shadow begins behind the point.
   [[nodiscard]] bool ignores(unsigned lane, double t, const glm::dvec3& normal) const {
     const LightPoint& from = packet->light_point[lane];
-    const double depth = packet->depth - from.position.z;
-    const glm::dvec3 along = to_light(-glm::dvec3(packet->direction[lane])) / depth;
-    return t * depth <= bias_of(*bias, from, to_light(normal), along, (1 - t) * depth);
+    const double depth = packet->depth - from.position.z;  // metres for a change of t by 1
+    const glm::dvec3 to_caster = -glm::dvec3(packet->direction[lane]) / depth;  // a metre of depth
+    double slope = slope_bias(*bias, from, to_light(normal), to_light(to_caster), (1 - t) * depth);
+    if (bias->behind != nullptr && slope > bias->constant) {
+      const double near = std::max(bias->same_surface * bias->constant, bias->least_gap * (1 - t) * depth);
+      const glm::dvec3 at = packet->world_point - t * depth * to_caster;
+      const auto next = bias->behind->meet(LitSurfaces::Heading::from_light, at, to_caster, near,
+                                           slope / bias->way_to_next);
+      if (next) slope = std::min(slope, bias->way_to_next * next->distance);
+    }
+    return t * depth <= bias->constant + slope;
   }
 
   static void filter(const RTCFilterFunctionNArguments* args) {
@@ -103,6 +112,7 @@ double ShadowRays::share_blocked(const glm::dvec3& world_point, std::uint32_t co
   Packet packet;
   packet.depth = apply(world_to_light_, world_point).z;
   if (!(packet.depth > emitter_depth_)) return 0;
+  packet.world_point = world_point;
   packet.origin = glm::vec3(world_point - casters_.centre());
   std::uint64_t blocked = 0;
   for (std::uint32_t first = 0; first < count; first += kPacketSize) {

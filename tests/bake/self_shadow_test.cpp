@@ -150,6 +150,53 @@ TEST_P(PlateGap, CastsFromTheBiasOn) {
   }
 }
 
+/// A sheet that rises from depth 4 to 6 within a fraction of a texel, edge-on to a point light, `floors`
+/// below.
+class EdgeOnSheet : public testing::Test {
+ protected:
+  static constexpr double kPitch = 0.05, kFrom = 0.3, kTo = 0.7;  // of texel 2, along x
+
+  [[nodiscard]] static BakedFunctions bake_over(const std::vector<Mesh>& below, Roles roles = Roles::both) {
+    Light light = rect_light(0, 0);
+    set_view(light, 2 * kPitch, 2 * kPitch, 2, 9);
+    Scene scene;
+    const auto corner = [](double share, double y, double z) { return glm::dvec3(share * kPitch * z, y, z); };
+    add(scene, quad_mesh(corner(kFrom, -9, 4), corner(kTo, -9, 6), corner(kTo, 9, 6), corner(kFrom, 9, 4)));
+    for (const Mesh& mesh : below) add(scene, mesh, roles);
+    BakeOptions options = small_options(4, 4, kSamples);
+    options.epsilon = 0;
+    options.bias = kBias;
+    return {scene, light, options};
+  }
+
+  static constexpr std::uint32_t kSamples = 64;
+  static constexpr double kBias = 0.01;
+};
+
+TEST_F(EdgeOnSheet, DarkensTheFloorFromHalfWayOn) {
+  // Maps meet the sheet at depths 4 .. 6 where their shifted texel centres fall on it: for a share of 0.4 of
+  // the shifts. All begin half-way to the floor at 8: at 6 the first, at 7 the last.
+  const BakedFunctions baked = bake_over({quad_mesh({-9, -9, 8}, {9, -9, 8}, {9, 9, 8}, {-9, 9, 8})});
+  const double dark = baked.value(2, 1, 8);
+  // The first 64 numbers of a golden-ratio sequence are in an interval as often as its length says, to 4.
+  EXPECT_NEAR(dark, kTo - kFrom, 4.0 / kSamples);
+  EXPECT_EQ(baked.value(2, 1, 6), 0);
+  EXPECT_EQ(baked.value(2, 1, 7.0 + kBias + 0.01), dark);
+}
+
+TEST_F(EdgeOnSheet, AloneHasNoShadow) {
+  EXPECT_EQ(bake_over({}).value(2, 1, 9), 0);
+}
+
+TEST_F(EdgeOnSheet, SurfacesThatFaceAwayHoldNothingBack) {
+  // Within a closed box, what lies behind the sheet is the box's bottom, from inside.
+  const Mesh around = box_mesh({-9, -9, 3.9}, {9, 9, 8});
+  EXPECT_EQ(bake_over({around}, Roles::receiver).value(2, 1, 7.9), 0);
+  // The same bottom, open, has a side that faces the light.
+  const Mesh bottom = quad_mesh({-9, -9, 8}, {9, -9, 8}, {9, 9, 8}, {-9, 9, 8});
+  EXPECT_GT(bake_over({bottom}, Roles::receiver).value(2, 1, 7.9), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothWalks, PlateGap, testing::Values(Walk::midpoint, Walk::exact),
                          [](const auto& walk) { return walk.param == Walk::exact ? "Exact" : "Midpoint"; });
 

@@ -54,6 +54,17 @@ inline Geometry half_plane(double angle, double a, double z, double reach = 200)
   return quad(corner(a, -reach), corner(a + reach, -reach), corner(a + reach, reach), corner(a, reach));
 }
 
+/// The geometry mirrored at x = 0, its triangles turned over as an import does it.
+inline Geometry mirrored(Geometry geometry) {
+  auto mesh = std::make_shared<Mesh>(*geometry.mesh);
+  for (glm::uvec3& t : mesh->triangles) std::swap(t.y, t.z);
+  geometry.mesh = mesh;
+  geometry.local_to_world = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
+                                       glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1)) *
+                            geometry.local_to_world;
+  return geometry;
+}
+
 /// A closed sphere of `rings` x 2 rings quads.
 inline Geometry sphere(const glm::dvec3& centre, double radius, std::uint32_t rings) {
   const double pi = std::acos(-1.0);

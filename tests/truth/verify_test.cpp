@@ -150,7 +150,7 @@ TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
   EXPECT_LT(farthest(), 4.8 + 0.14);
   EXPECT_GT(farthest(), 4.5);
   // Mirrored, it still does.
-  scene.geometry[0].local_to_world[0][0] = -1;
+  scene.geometry[0] = mirrored(scene.geometry[0]);
   EXPECT_LT(farthest(), 4.8 + 0.14);
   EXPECT_GT(farthest(), 4.5);
 }

@@ -69,7 +69,7 @@ TEST(LastReceivers, AreTheFarthestThatFaceTheLight) {
   scene.geometry = {sphere({0, 0, 5}, 2.5, 24)};
   ASSERT_TRUE(scene.geometry[0].mesh->closed);
   EXPECT_LT(depth(4, 3), 3.5);
-  scene.geometry[0].local_to_world[0][0] = -1;
+  scene.geometry[0] = mirrored(scene.geometry[0]);
   EXPECT_LT(depth(4, 3), 3.5);
   auto open = std::make_shared<Mesh>(*scene.geometry[0].mesh);
   open->closed = false;

@@ -22,7 +22,9 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;  ///< indices into positions
   /// Every edge (after welding equal positions) is shared by two triangles of opposite direction: only
-  /// then "light-facing" is told by the winding, else both sides count. See is_closed().
+  /// then "light-facing" is told by the winding, else both sides count. See is_closed(). The winding counts
+  /// as placed in the world, counter-clockwise seen from outside: a mirroring placement wants it turned over
+  /// in local space, as importing a file does.
   bool closed = false;
 };
 
