@@ -16,7 +16,7 @@ std::vector<LightPoint> points_of(const BakeJob& job) {
   const MapGrid& grid = job.grid;
   std::vector<LightPoint> points;
   for (const LightSample& sample : job.samples) {
-    const MapBias bias = sample_bias(grid, job.options.walk, job.shift_law(), job.bias, sample);
+    const MapBias bias = sample_bias(grid, job.options.walk, job.shift_law(), job.depth_bias(), sample);
     const auto& s = sample.position;
     LightPoint& point = points.emplace_back();
     point.position = {s[0], s[1], s[2]};
@@ -38,6 +38,7 @@ SampleRayValues trace_sample_rays(const Scene& scene, const Light& light, const 
   const LitSurfaces behind(scene);
   const CasterBias bias{job.bias,
                         view.far_depth,
+                        job.slope_limit.from,
                         &behind,
                         SurfaceBias::kWayToNext,
                         SurfaceBias::kSameSurface,

@@ -117,6 +117,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   light_space = to_light_space(scene, fitted.view.world_to_view);
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh = omp_get_wtime() - start;
+  if (!fitted.nothing_casts) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
   resident_after_bvh = resident_bytes();
 }
 
@@ -127,7 +128,7 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   shift_law(),
                   options.walk,
                   options.receivers,
-                  bias,
+                  depth_bias(),
                   rules,
                   options.threads,
                   fitted.nothing_casts && options.light_samples.empty(),

@@ -3,6 +3,7 @@
 
 #include "pdsm/bake/bake.h"
 #include "tile/bake_tile.h"
+#include "tile/slope_limit.h"
 #include "trace/embree_scene.h"
 #include "trace/light_space.h"
 
@@ -17,6 +18,9 @@ class BakeJob {
   /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
   [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;
 
+  /// What all maps have in common of their bias.
+  [[nodiscard]] DepthBias depth_bias() const { return {bias, slope_limit.from}; }
+
   /// Whether all samples lie in the light's plane, so that one walk serves all rays of each.
   [[nodiscard]] bool shift_law() const;
 
@@ -24,7 +28,8 @@ class BakeJob {
   FittedView fitted;
   std::vector<LightSample> samples;
   MapGrid grid;
-  double bias = 0;
+  double bias = 0;  ///< its constant part, metres
+  SlopeLimit slope_limit;
   FitRules rules;
   std::uint32_t mip_levels = 0;  ///< above 0, that are made
   TilePlan plan;

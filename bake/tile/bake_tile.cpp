@@ -60,7 +60,7 @@ std::int64_t band_code(const FitRules& rules, float depth) {
 
 std::vector<std::vector<CodeBand>> find_code_bands(const TileInput& input, const TexelRect& rect) {
   // Within delta and the bias of a surface, its own shadow begins.
-  const double margin = input.bias + input.rules.tolerance;
+  const double margin = input.bias.constant + input.rules.tolerance;
   std::vector<std::vector<CodeBand>> result;
   for (const auto& bands : find_surface_bands(input.scene, input.grid, rect, margin)) {
     auto& codes = result.emplace_back();

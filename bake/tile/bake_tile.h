@@ -6,6 +6,7 @@
 
 #include "fit/fit_rules.h"
 #include "pdsm/bake/bake.h"
+#include "tile/sample_bias.h"
 #include "tile/shadow_cells.h"
 #include "tile/tile_block.h"
 #include "tile/tile_plan.h"
@@ -21,7 +22,7 @@ struct TileInput {
   bool shift_law = true;  ///< all samples obey it
   Walk walk = Walk::exact;
   Receivers receivers = Receivers::volume;
-  double bias = 0;  ///< metres
+  DepthBias bias;
   FitRules rules;
   std::uint32_t threads = 1;
   bool nothing_casts = false;  ///< every function is empty: trace no maps

@@ -53,6 +53,10 @@ void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList
   if (casts && job.shift_law())
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));
+  if (casts)
+    list.either(job.slope_limit.thin_gaps, "bias of gentle slopes before receivers",
+                "receivers lie close behind surfaces that slope gently",
+                "hardly any receiver lies so close behind", counted(samples, "maps of second rays"));
   list.either(!job.shift_law(), "general scan conversion", "light samples lie out of the light's plane",
               "all light samples lie in the light's plane: one walk serves all rays",
               counted((texels - 1) * samples, "conversions of a ray"));

@@ -18,9 +18,9 @@ constexpr double kFilterReach = 0.6;
 
 }  // namespace
 
-MapBias sample_bias(const MapGrid& grid, Walk walk, bool shift_law, double constant,
+MapBias sample_bias(const MapGrid& grid, Walk walk, bool shift_law, const DepthBias& depth_bias,
                     const LightSample& sample) {
-  MapBias bias{constant, {}};
+  MapBias bias{depth_bias.constant, {}, depth_bias.limited_from};
   for (std::size_t a = 0; a < 2; ++a)
     bias.reach[a] = kWalkReach + kFilterReach * grid.ratio[a].maps_per_texel();
   if (walk == Walk::exact) return bias;

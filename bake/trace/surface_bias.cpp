@@ -19,6 +19,7 @@ SurfaceBias::SurfaceBias(const EmbreeScene& scene, const MapGrid& grid, const Li
                          const MapBias& bias)
     : scene_(scene),
       constant_(static_cast<float>(bias.constant)),
+      limited_from_(static_cast<float>(bias.limited_from)),
       limit_(static_cast<float>(grid.far_depth)) {
   const double lambda = (grid.focus_depth - sample.position[2]) / grid.focus_depth;
   reach_x_ = static_cast<float>(bias.reach[0] * grid.pitch[0] / lambda);
@@ -41,17 +42,16 @@ void SurfaceBias::slope_biases(const RTCRayHit16& packet, float* slopes) const {
   bool any_steep = false;
   for (int lane = 0; lane < kLanes; ++lane) {
     slopes[lane] = met(packet, lane) ? of_plane(packet, lane) : 0.0F;
-    any_steep = any_steep || slopes[lane] > constant_;
+    any_steep = any_steep || slopes[lane] > limited_from_;
   }
   if (any_steep) keep_before_next_receiver(packet, slopes);
 }
 
-/// What adds no more than the constant is left as it is: the constant alone leaks as much.
 void SurfaceBias::keep_before_next_receiver(const RTCRayHit16& packet, float* slopes) const {
   RTCRayHit16 onwards = packet;
   alignas(64) std::array<int, kLanes> valid;
   for (int lane = 0; lane < kLanes; ++lane) {
-    valid[static_cast<std::size_t>(lane)] = slopes[lane] > constant_ ? -1 : 0;
+    valid[static_cast<std::size_t>(lane)] = slopes[lane] > limited_from_ ? -1 : 0;
     const float t = packet.ray.tfar[lane];
     onwards.ray.tnear[lane] = t + std::max(kSameSurface * constant_, kLeastGap * t);
     onwards.ray.tfar[lane] = t + slopes[lane] / kWayToNext;

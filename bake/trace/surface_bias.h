@@ -17,6 +17,7 @@ namespace pdsm {
 struct MapBias {
   double constant = 0;                    ///< metres, the same everywhere
   std::array<double, 2> reach{0.5, 0.5};  ///< map texels along x and y
+  double limited_from = 0;  ///< metres: slopes that add more are kept before the next receiver
 };
 
 /// The bias of what the rays of one sample's map meet (docs/maths.md, "Bias").
@@ -37,8 +38,8 @@ class SurfaceBias {
   [[nodiscard]] float constant() const { return constant_; }
 
   /// What each lane's surface adds for its slope, metres, into `slopes`; 0 for lanes that met nothing.
-  /// `packet` holds rays that have been traced. Those whose slope adds more than the constant are traced on
-  /// to the next receiver.
+  /// `packet` holds rays that have been traced. Those whose slope adds more than is free are traced on to the
+  /// next receiver.
   void slope_biases(const RTCRayHit16& packet, float* slopes) const;
 
  private:
@@ -46,7 +47,7 @@ class SurfaceBias {
   void keep_before_next_receiver(const RTCRayHit16& packet, float* slopes) const;
 
   const EmbreeScene& scene_;
-  float constant_, reach_x_, reach_y_, limit_;
+  float constant_, limited_from_, reach_x_, reach_y_, limit_;
 };
 
 }  // namespace pdsm

@@ -12,9 +12,10 @@ namespace pdsm {
 /// How far behind a caster its shadow begins in a baked map (docs/maths.md, "Bias"), for rays that have to
 /// leave out the same shadows as a bake does.
 struct CasterBias {
-  double constant = 0;  ///< metres
-  double limit = 0;     ///< metres: of planes that are seen edge-on within the reach
-  /// What the slope adds ends `way_to_next` of the way to the next of these behind the caster, those nearer
+  double constant = 0;      ///< metres
+  double limit = 0;         ///< metres: of planes that are seen edge-on within the reach
+  double limited_from = 0;  ///< metres: slopes that add no more are free
+  /// What other slopes add ends `way_to_next` of the way to the next of these behind the caster, those nearer
   /// than `least_gap` of the depth and `same_surface` of the constant left out. Null: nowhere.
   const LitSurfaces* behind = nullptr;
   double way_to_next = 1, same_surface = 0, least_gap = 0;

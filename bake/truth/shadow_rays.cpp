@@ -53,7 +53,7 @@ struct ShadowRays::BiasedContext {
     const double depth = packet->depth - from.position.z;  // metres for a change of t by 1
     const glm::dvec3 to_caster = -glm::dvec3(packet->direction[lane]) / depth;  // a metre of depth
     double slope = slope_bias(*bias, from, to_light(normal), to_light(to_caster), (1 - t) * depth);
-    if (bias->behind != nullptr && slope > bias->constant) {
+    if (bias->behind != nullptr && slope > bias->limited_from) {
       const double near = std::max(bias->same_surface * bias->constant, bias->least_gap * (1 - t) * depth);
       const glm::dvec3 at = packet->world_point - t * depth * to_caster;
       const auto next = bias->behind->meet(LitSurfaces::Heading::from_light, at, to_caster, near,

@@ -57,6 +57,24 @@ TEST(ModelOnly, ReceiversOutsideTheWindowCostNothing) {
   expect_same_cost(plain, {scene, key_light(), options});
 }
 
+TEST(ModelOnly, GentleSlopesAreLimitedWhereReceiversLieCloseBehind) {
+  // A sheet that rises by 3 m in 4 m, over a floor that is parallel to it or far below. A texel's footprint
+  // at far is 8 / 40 m: the slope adds up to 1.1 * 3/4 of that, less than four footprints.
+  const BakeOptions options = small_options(40, 40, 9);
+  const auto sheet_over = [](double gap) {
+    const auto corner = [](double x, double y, double z) { return glm::dvec3(x, y, z + 0.75 * x); };
+    Scene scene;
+    for (const double z : {4.0, 4 + gap})
+      add(scene, quad_mesh(corner(-2, -9, z), corner(2, -9, z), corner(2, 9, z), corner(-2, 9, z)));
+    return scene;
+  };
+  const char* name = "bias of gentle slopes before receivers";
+  EXPECT_TRUE(feature({sheet_over(0.2), key_light(), options}, name).modelled);
+  const BakedFunctions far(sheet_over(2), key_light(), options);
+  EXPECT_FALSE(feature(far, name).modelled);
+  EXPECT_EQ(feature(far, name).saved, "9 maps of second rays");
+}
+
 TEST(ModelOnly, RaysThatNothingCanDarkenAreNotTraced) {
   // A plate over a corner of the window leaves cells far from it alone.
   Scene scene;
