@@ -23,6 +23,7 @@ void add_check_command(CLI::App& app, Run& run);
 void add_query_command(CLI::App& app, Run& run);
 void add_truth_command(CLI::App& app, Run& run);
 void add_verify_command(CLI::App& app, Run& run);
+void add_tradeoff_command(CLI::App& app, Run& run);
 void add_render_command(CLI::App& app, Run& run);
 void add_export_command(CLI::App& app, Run& run);
 void add_import_command(CLI::App& app, Run& run);

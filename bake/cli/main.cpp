@@ -23,6 +23,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_query_command(app, run);
   add_truth_command(app, run);
   add_verify_command(app, run);
+  add_tradeoff_command(app, run);
   add_render_command(app, run);
   add_export_command(app, run);
   add_import_command(app, run);

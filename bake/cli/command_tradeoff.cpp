@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "cli/bake_options.h"
+#include "cli/bake_record.h"
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/progress_line.h"
+#include "cli/streams.h"
+#include "pdsm/bake/scene_file.h"
+#include "pdsm/format/error.h"
+#include "tradeoff/gnuplot.h"
+#include "tradeoff/tables.h"
+#include "tradeoff/write_results.h"
+
+namespace pdsm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TradeoffCommand {
+  std::string scene, output;
+  std::optional<std::string> light;
+  SweepOptions options;
+  bool quiet = false;
+};
+
+/// Makes the folder, in one that is there, and tries what will be written.
+void prepare_folder(const fs::path& folder, const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    if (fs::exists(folder, error)) throw Error(Failure::usage, "--output", "must be a folder");
+    if (!fs::create_directory(folder, error))
+      throw Error(Failure::resource, folder.string(), error.message());
+  }
+  for (const char* name : kResultFiles) check_output(folder / name, inputs);
+}
+
+/// The options as a bake of the light would have them.
+BakeOptions centre_options(const BakeOptions& given, const Light& light) {
+  BakeCommand bake;
+  bake.options = given;
+  return options_for(bake, light);
+}
+
+SweepCallbacks callbacks_for(const Scene& scene, ProgressLine& line) {
+  SweepCallbacks callbacks;
+  callbacks.progress = [&line](const SweepProgress& p) { line.show({p.step, p.done, 0}); };
+  callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
+  callbacks.metadata = [&scene](const Light& light, const BakeOptions& options, const BakedMap& baked) {
+    return bake_metadata(scene, light, options, baked);
+  };
+  return callbacks;
+}
+
+std::string better_text(const char* what, const Measurement& mine, const Measurement& best) {
+  if (&mine == &best) return fmt::format("{:<22}nothing measured is better\n", what);
+  return fmt::format("{:<22}{:.4f} in {:.2f} processor seconds, {} bytes: {}\n", what,
+                     best.error.mean_abs_error, best.cpu_seconds, best.file_bytes,
+                     setting_text(best.setting));
+}
+
+std::string summary(const Sweep& sweep, const fs::path& folder) {
+  const TubeCheck tube = total_tube(sweep);
+  std::string text = fmt::format(
+      "bakes                 {} ({} from an earlier run)\n"
+      "functions checked     {}, {} outside their tube, least margin {:.3g}\n",
+      sweep.measurements.size(), sweep.earlier, tube.functions, tube.outside, tube.worst_margin);
+  for (const NamedStanding& standing : named_standings(sweep)) {
+    const Measurement& m = *standing.measured;
+    text += fmt::format("{:<22}{:.4f} in {:.2f} processor seconds, {} bytes: {}\n", standing.name,
+                        m.error.mean_abs_error, m.cpu_seconds, m.file_bytes, setting_text(m.setting));
+    text += better_text("  for no more time", m, *standing.best_in_time);
+    text += better_text("  for no more bytes", m, *standing.best_in_file);
+  }
+  return text + fmt::format("page                  {}\n", (folder / "index.html").string());
+}
+
+int run_tradeoff(TradeoffCommand command) {
+  require_gnuplot();
+  const fs::path folder = command.output;
+  prepare_folder(folder, scene_inputs(command.scene));
+  const Scene scene = read_scene(command.scene);
+  const Light& light = choose_light(scene, command.light);
+  command.options.folder = folder;
+  command.options.options = centre_options(command.options.options, light);
+
+  ProgressLine line("tradeoff", command.quiet);
+  const PolledInterrupts interrupts;
+  const SweepCallbacks callbacks = callbacks_for(scene, line);
+  const Sweep sweep = run_sweep(scene, light, command.options, callbacks);
+  write_results(scene, sweep, command.options, callbacks);
+  write_result(summary(sweep, folder));
+  return total_tube(sweep).outside == 0 ? kExitOk : kExitDoesNotHold;
+}
+
+}  // namespace
+
+void add_tradeoff_command(CLI::App& app, Run& run) {
+  auto command = std::make_shared<TradeoffCommand>();
+  SweepOptions& options = command->options;
+  CLI::App& sub = *app.add_subcommand("tradeoff", "Error, time and size of a light's map over its settings");
+  add_file(sub, "SCENE", command->scene, "Scene file");
+  sub.add_option("-o,--output", command->output, "Folder for tables, plots and one HTML page")
+      ->required()
+      ->type_name("DIR");
+  sub.add_option("--light", command->light, "Needed when the scene has several")->type_name("NAME");
+  add_choice(sub, "--effort", options.effort,
+             {{"quick", Effort::quick}, {"normal", Effort::normal}, {"full", Effort::full}},
+             "How many settings; default normal");
+  add_count(sub, "--points", options.verify.points, 1, 100'000'000,
+            "Points, half on surfaces and half in free space; default 4000");
+  add_count(sub, "--truth-samples", options.verify.samples, 2, std::uint64_t{1} << 24,
+            "Shadow rays a point; default 4096");
+  sub.add_option_function<std::string>(
+         "--memory",
+         [&options](const std::string& text) { options.options.memory = parse_memory("--memory", text); },
+         "What a bake may take beyond scene and BVH: 256M, 4G; default 4G")
+      ->type_name("SIZE");
+  add_count(sub, "--threads", options.options.threads, 0, 1024, "Default 0: all processors");
+  sub.add_flag("--quiet", command->quiet, "Nothing but errors on stderr");
+  sub.callback([command, &run] { run = [command] { return run_tradeoff(*command); }; });
+}
+
+}  // namespace pdsm
