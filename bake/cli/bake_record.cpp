@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "evaluate/map_statistics.h"
+
 namespace pdsm {
 namespace {
 
@@ -72,15 +74,6 @@ Json fit_json(const FittedView& fitted) {
           {"nothing_casts", fitted.nothing_casts}};
 }
 
-/// Functions as they lie in memory, or in textures.
-std::uint64_t decoded_bytes(const BakedMap& baked) {
-  std::uint64_t bytes = 0;
-  for (const auto& blocks : baked.blocks) {
-    for (const EncodedBlock& block : blocks) bytes += block.decoded_bytes;
-  }
-  return bytes;
-}
-
 }  // namespace
 
 const char* walk_name(Walk walk) {
@@ -121,7 +114,7 @@ nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& b
   json["texels"] = report.texels;
   json["pieces"] = report.pieces;
   json["bytes"] = {{"file", costs.file_bytes},
-                   {"gpu", decoded_bytes(baked)},
+                   {"gpu", texture_bytes(baked)},
                    {"peak_memory", peak_memory()},
                    {"resident_after_bvh", report.resident_after_bvh}};
   json["samples"] = report.samples;

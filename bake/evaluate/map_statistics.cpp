@@ -34,4 +34,13 @@ MapStatistics level_statistics(const PenumbraMap& map, std::uint32_t level) {
   return total;
 }
 
+std::uint64_t texture_bytes(const BakedMap& baked) {
+  std::uint64_t words = 0;
+  for (const auto& blocks : baked.blocks) {
+    for (const EncodedBlock& block : blocks)
+      words += block.texels + block.vertices * baked.map.coding.words_per_vertex();
+  }
+  return words * sizeof(std::uint32_t);
+}
+
 }  // namespace pdsm

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "evaluate/map_statistics.h"
 #include "pdsm/bake/view_fit.h"
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
@@ -33,15 +34,6 @@ PenumbraMap bake_domain(const MeasureInput& input) {
   BakeOptions options = options_of(input.centre, input.options);
   options.samples = 1;
   return decode_blocks(bake(input.scene, input.light, options));
-}
-
-/// The functions as they lie in memory, or in textures.
-std::uint64_t decoded_bytes(const BakedMap& baked) {
-  std::uint64_t bytes = 0;
-  for (const auto& blocks : baked.blocks) {
-    for (const EncodedBlock& block : blocks) bytes += block.decoded_bytes;
-  }
-  return bytes;
 }
 
 /// The same points under another light.
@@ -96,7 +88,7 @@ Measurer::Baked Measurer::bake_one(const TradeoffSetting& setting, const BakeCal
   m.rays = result.map.report.rays;
   m.events = result.map.report.events;
   m.pieces = result.map.report.pieces;
-  m.gpu_bytes = decoded_bytes(result.map);
+  m.gpu_bytes = texture_bytes(result.map);
   return result;
 }
 

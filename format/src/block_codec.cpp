@@ -69,8 +69,10 @@ EncodedBlock encode_block(const VertexCoding& coding, std::uint32_t block_width,
                           const FunctionBlock& block, const WriteOptions& options) {
   assert(!check_coding(coding) && !check_block(coding, block_width * block_height, block));
   EncodedBlock encoded;
-  encoded.decoded_bytes = raw_block_size(coding, std::uint64_t{block_width} * block_height,
-                                         block.first.back(), !block.domain_end.empty());
+  encoded.texels = std::uint64_t{block_width} * block_height;
+  encoded.vertices = block.first.back();
+  encoded.decoded_bytes =
+      raw_block_size(coding, encoded.texels, encoded.vertices, !block.domain_end.empty());
   if (options.compression == Compression::zstd) {
     encoded.encoding = kEncodingPlanes;
     encoded.bytes = compress_block(coding, block_width, block);

@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "evaluate/map_statistics.h"
 #include "pdsm/format/map_file.h"
 
 namespace pdsm::bench {
@@ -32,9 +33,7 @@ TimedBake timed_bake(const Scene& scene, const Light& light, const BakeOptions& 
   const std::filesystem::path file = scratch / "timed.pdsm";
   timed.file_bytes = write_encoded_map(timed.baked.map, timed.baked.blocks, file);
   std::filesystem::remove(file);
-  for (const auto& blocks : timed.baked.blocks) {
-    for (const EncodedBlock& block : blocks) timed.gpu_bytes += block.decoded_bytes;
-  }
+  timed.gpu_bytes = texture_bytes(timed.baked);
   return timed;
 }
 

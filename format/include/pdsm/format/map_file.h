@@ -46,6 +46,7 @@ struct ChunkSummary {
 struct EncodedBlock {
   std::uint32_t encoding = 0;  ///< FORMAT.md section 6
   std::uint64_t decoded_bytes = 0;
+  std::uint64_t texels = 0, vertices = 0;  ///< functions, and the vertices of all of them
   std::vector<std::byte> bytes;
 };
 [[nodiscard]] EncodedBlock encode_block(const VertexCoding& coding, std::uint32_t block_width,
