@@ -9,6 +9,10 @@ namespace {
 /// Metres that no scene reaches.
 constexpr double kMostMetres = 1e9;
 constexpr std::uint32_t kMostThreads = 1024;
+/// Below the least target, errors drown in those of the shadow rays that they are measured against; 1 is all
+/// that an attenuation can err.
+constexpr double kLeastTarget = 0.0005, kMostTarget = 1;
+constexpr double kLeastSeconds = 0.001, kMostSeconds = 1e7;
 constexpr double kLargestEpsilon = 1 - 0x1p-53;
 
 void add_resolution(CLI::App& sub, const std::string& name,
@@ -25,7 +29,7 @@ void add_quality_options(CLI::App& sub, BakeCommand& command) {
   add_resolution(sub, "--resolution", command.resolution, "Texels of the map; default the light's or 512");
   add_resolution(sub, "--map-resolution", command.map_resolution,
                  "Texels of each sample's shadow map; default the map's");
-  add_real(sub, "--epsilon", options.epsilon, 0, kLargestEpsilon,
+  add_real(sub, "--epsilon", command.epsilon, 0, kLargestEpsilon,
            "Bound of the fit; default 0.02, 0: lossless");
   add_real(sub, "--depth-tolerance", options.depth_tolerance, 0, kMostMetres,
            "Metres an event may move; default a quarter of the bias");
@@ -41,6 +45,24 @@ void add_quality_options(CLI::App& sub, BakeCommand& command) {
   add_count(sub, "--mip-levels", options.mip_levels, 0, kMostMipLevels,
             "Levels of means for look-ups of many texels; default 0: none");
   add_count(sub, "--seed", options.seed, 0, ~std::uint64_t{0}, "Default 0");
+}
+
+void add_goal_options(CLI::App& sub, BakeCommand& command) {
+  Goals& goals = command.goals;
+  add_real(sub, "--target-error", goals.target_error, kLeastTarget, kMostTarget,
+           "Choose samples, resolution and epsilon so that verify's mean_abs_error is at most this");
+  add_real(sub, "--time-budget", goals.time_budget, kLeastSeconds, kMostSeconds,
+           "Choose them for the least error in so many seconds, all lights together");
+  sub.add_option_function<std::string>(
+         "--size-budget",
+         [&goals](const std::string& text) { goals.size_budget = parse_memory("--size-budget", text); },
+         "Choose them for the least error in a file of so many bytes: 65536, 500K, 2M")
+      ->type_name("SIZE");
+  add_choice(sub, "--quality", command.quality,
+             {{"draft", std::optional(Quality::draft)},
+              {"game", std::optional(Quality::game)},
+              {"final", std::optional(Quality::final)}},
+             "Samples, resolution and epsilon by a name");
 }
 
 void add_resource_options(CLI::App& sub, BakeCommand& command) {
@@ -71,6 +93,7 @@ void add_bake_options(CLI::App& sub, BakeCommand& command) {
   sub.add_option("-o,--output", command.output, "Map to write; a folder for several lights, NAME.pdsm each")
       ->type_name("FILE|DIR");
   sub.add_option("--light", command.light, "Bake this light; default all")->type_name("NAME");
+  add_goal_options(sub, command);
   add_quality_options(sub, command);
   add_resource_options(sub, command);
   sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
@@ -80,14 +103,37 @@ void add_bake_options(CLI::App& sub, BakeCommand& command) {
 
 BakeOptions options_for(const BakeCommand& command, const Light& light) {
   BakeOptions options = command.options;
-  options.samples = command.samples.value_or(light.samples.value_or(options.samples));
-  const auto resolution = command.resolution ? command.resolution : light.resolution;
+  auto samples = command.samples;
+  auto resolution = command.resolution;
+  if (command.quality) {
+    options = with_settings(options, quality_settings(*command.quality));
+  } else if (!command.goals.any()) {
+    if (!samples) samples = light.samples;
+    if (!resolution) resolution = light.resolution;
+  }
+  options.samples = samples.value_or(options.samples);
+  options.epsilon = command.epsilon.value_or(options.epsilon);
   if (resolution) std::tie(options.width, options.height) = std::tuple((*resolution)[0], (*resolution)[1]);
   if (command.map_resolution) {
     options.map_width = (*command.map_resolution)[0];
     options.map_height = (*command.map_resolution)[1];
   }
   return options;
+}
+
+FixedOptions fixed_options(const BakeCommand& command) {
+  return {command.samples.has_value(), command.resolution.has_value(), command.epsilon.has_value(),
+          command.map_resolution.has_value()};
+}
+
+void check_goals(const BakeCommand& command) {
+  if (!command.goals.any()) return;
+  if (command.quality) {
+    throw Error(Failure::usage, "--quality", "names the options that a goal would choose: give one of both");
+  }
+  if (command.dry_run) {
+    throw Error(Failure::usage, "--dry-run", "can't tell what a goal leads to: that takes bakes");
+  }
 }
 
 }  // namespace pdsm

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "choose/goals.h"
+#include "choose/quality.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/format/map_file.h"
 
@@ -18,6 +20,9 @@ struct BakeCommand {
   std::optional<std::string> light;
   std::optional<std::uint32_t> samples;
   std::optional<std::array<std::uint32_t, 2>> resolution, map_resolution;
+  std::optional<double> epsilon;
+  std::optional<Quality> quality;
+  Goals goals;
   BakeOptions options;  ///< everything else
   bool quiet = false, dry_run = false;
 };
@@ -25,7 +30,13 @@ struct BakeCommand {
 /// Puts the options on `sub`; they write to `command`, which must outlive parsing.
 void add_bake_options(CLI::App& sub, BakeCommand& command);
 
-/// The options for one light.
+/// The options for one light. With goals, the light's own samples and resolution do not count.
 [[nodiscard]] BakeOptions options_for(const BakeCommand& command, const Light& light);
+
+/// What goals must not choose, as the command line gives it.
+[[nodiscard]] FixedOptions fixed_options(const BakeCommand& command);
+
+/// Throws Error (usage) for options that do not go together.
+void check_goals(const BakeCommand& command);
 
 }  // namespace pdsm

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/goal_record.h"
 #include "evaluate/map_statistics.h"
 
 namespace pdsm {
@@ -81,7 +82,7 @@ const char* walk_name(Walk walk) {
 }
 
 std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
-                          const BakedMap& baked) {
+                          const BakedMap& baked, const ChosenBake* chosen) {
   const BakeReport& report = baked.report;
   Json json;
   json["tool"] = {{"name", "pdsm"}, {"version", PDSM_VERSION}};
@@ -93,12 +94,13 @@ std::string bake_metadata(const Scene& scene, const Light& light, const BakeOpti
   json["epsilon"] = report.epsilon;
   json["depth_tolerance"] = report.depth_tolerance;
   json["bias"] = report.bias;
+  if (chosen != nullptr) json["achieved"] = achieved_json(*chosen);
   json["modelled"] = modelled_json(report);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
-                                   const BakeCosts& costs) {
+nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked, const BakeCosts& costs,
+                                   const ChosenBake* chosen) {
   const BakeReport& report = baked.report;
   Json json;
   json["seconds"] = {{"load", costs.seconds_load},
@@ -127,6 +129,7 @@ nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& b
   json["isa"] = report.isa;
   json["modelled"] = modelled_json(report);
   json["receivers_outside"] = baked.fitted.receivers_outside;
+  if (chosen != nullptr) json["goal"] = goal_json(*chosen);
   return json;
 }
 

@@ -5,15 +5,16 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "choose/search.h"
 #include "pdsm/bake/bake.h"
 
 /// What is written down about a bake: in the map for good, in the report for those who run it.
 namespace pdsm {
 
 /// The metadata of a baked map. Holds nothing that another run on the same input could change: no times,
-/// threads or tiles.
+/// threads or tiles. `chosen` is null unless the bake had goals.
 [[nodiscard]] std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
-                                        const BakedMap& baked);
+                                        const BakedMap& baked, const ChosenBake* chosen = nullptr);
 
 /// What the command line knows beyond the baker's own report.
 struct BakeCosts {
@@ -23,7 +24,7 @@ struct BakeCosts {
 
 /// The report of one bake (docs/commands.md).
 [[nodiscard]] nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
-                                                 const BakeCosts& costs);
+                                                 const BakeCosts& costs, const ChosenBake* chosen = nullptr);
 
 [[nodiscard]] const char* walk_name(Walk walk);
 

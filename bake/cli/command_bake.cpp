@@ -11,6 +11,7 @@
 #include "cli/bake_options.h"
 #include "cli/bake_record.h"
 #include "cli/command.h"
+#include "cli/goal_bake.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
@@ -91,6 +92,13 @@ void tell_notes(const BakeCommand& command, const Job& job, const BakedMap& bake
   }
 }
 
+/// The last look before a map of limited size is written.
+void check_size(const Goals& goals, const BakedMap& baked) {
+  const std::uint64_t bytes = encoded_map_bytes(baked.map, baked.blocks);
+  if (!goals.size_budget || bytes <= *goals.size_budget) return;
+  throw GoalMissed(fmt::format("--size-budget: metadata makes the file {} bytes", bytes));
+}
+
 BakedMap bake_polled(const BakeCommand& command, const Scene& scene, const Job& job) {
   ProgressLine line(job.light->name, command.quiet);
   const PolledInterrupts interrupts;
@@ -102,18 +110,52 @@ BakedMap bake_polled(const BakeCommand& command, const Scene& scene, const Job& 
   return baked;
 }
 
-/// Bakes and writes one map; its report.
-nlohmann::ordered_json bake_job(const BakeCommand& command, const Scene& scene, const Job& job,
-                                double seconds_load) {
-  BakedMap baked = bake_polled(command, scene, job);
-  baked.map.metadata = bake_metadata(scene, *job.light, job.options, baked);
+/// Writes one map; its report. `chosen` is null unless the bake had goals.
+nlohmann::ordered_json write_job(const BakeCommand& command, const Scene& scene, const Job& job,
+                                 BakedMap& baked, const ChosenBake* chosen, double seconds_load) {
+  baked.map.metadata = bake_metadata(scene, *job.light, job.options, baked, chosen);
+  if (chosen != nullptr) check_size(command.goals, baked);
   const StopWatch watch;
   BakeCosts costs;
   costs.file_bytes = write_encoded_map(baked.map, baked.blocks, job.output);
   costs.seconds_load = seconds_load;
   costs.seconds_write = watch.seconds();
   tell_notes(command, job, baked);
-  return bake_report(job.options, baked, costs);
+  return bake_report(job.options, baked, costs, chosen);
+}
+
+/// Bakes and writes one map; its report.
+nlohmann::ordered_json bake_job(const BakeCommand& command, const Scene& scene, const Job& job,
+                                double seconds_load) {
+  BakedMap baked = bake_polled(command, scene, job);
+  return write_job(command, scene, job, baked, nullptr, seconds_load);
+}
+
+/// The same to goals, in `time_budget` seconds when the command has such a goal.
+nlohmann::ordered_json bake_job_to_goals(const BakeCommand& command, const Scene& scene, const Job& job,
+                                         std::optional<double> time_budget, double seconds_load) {
+  ChosenBake chosen = bake_to_goals(command, scene, *job.light, job.options, time_budget);
+  if (!command.quiet) write_error_line(job.light->name + ": " + chosen_text(chosen));
+  const Job as_chosen{job.light, chosen.options, job.output};
+  return write_job(command, scene, as_chosen, chosen.baked, &chosen, seconds_load);
+}
+
+/// Bakes all maps to goals; a time budget is for all of them together.
+nlohmann::ordered_json bake_all_to_goals(const BakeCommand& command, const Scene& scene,
+                                         const std::vector<Job>& jobs, double seconds_load) {
+  const StopWatch watch;
+  nlohmann::ordered_json reports;
+  for (std::size_t n = 0; n < jobs.size(); ++n) {
+    std::optional<double> share;
+    if (command.goals.time_budget) {
+      share = (*command.goals.time_budget - watch.seconds()) / static_cast<double>(jobs.size() - n);
+    }
+    reports[jobs[n].light->name] = bake_job_to_goals(command, scene, jobs[n], share, seconds_load);
+  }
+  if (command.goals.time_budget && watch.seconds() > *command.goals.time_budget) {
+    write_warning(fmt::format("--time-budget: took {:.1f} s", watch.seconds()));
+  }
+  return reports;
 }
 
 void write_report(const fs::path& path, const nlohmann::ordered_json& report) {
@@ -148,7 +190,11 @@ void bake_jobs(const BakeCommand& command, const Scene& scene, const std::vector
                double seconds_load) {
   check_outputs(command, jobs);
   nlohmann::ordered_json reports;
-  for (const Job& job : jobs) reports[job.light->name] = bake_job(command, scene, job, seconds_load);
+  if (command.goals.any()) {
+    reports = bake_all_to_goals(command, scene, jobs, seconds_load);
+  } else {
+    for (const Job& job : jobs) reports[job.light->name] = bake_job(command, scene, job, seconds_load);
+  }
   if (command.report.empty()) return;
   write_report(command.report, jobs.size() == 1 ? reports.front() : reports);
 }
@@ -157,6 +203,7 @@ int run_bake(const BakeCommand& command) {
   if (command.output.empty() && !command.dry_run) {
     throw Error(Failure::usage, "--output", "is required, except for --dry-run");
   }
+  check_goals(command);
   const StopWatch watch;
   const Scene scene = read_scene(command.scene);
   const double seconds_load = watch.seconds();
@@ -166,8 +213,13 @@ int run_bake(const BakeCommand& command) {
   const std::vector<Job> jobs = plan_jobs(command, scene);
   if (command.dry_run) {
     for (const Job& job : jobs) print_prediction(scene, job);
-  } else {
+    return kExitOk;
+  }
+  try {
     bake_jobs(command, scene, jobs, seconds_load);
+  } catch (const GoalMissed& missed) {
+    write_error_line(missed.what());
+    return kExitDoesNotHold;
   }
   return kExitOk;
 }

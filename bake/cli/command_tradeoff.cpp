@@ -43,11 +43,17 @@ void prepare_folder(const fs::path& folder, const std::vector<fs::path>& inputs)
   for (const char* name : kResultFiles) check_output(folder / name, inputs);
 }
 
-/// The options as a bake of the light would have them.
-BakeOptions centre_options(const BakeOptions& given, const Light& light) {
+/// The centre as a bake of the light would have it, and the presets.
+void set_options(SweepOptions& options, const Light& light) {
   BakeCommand bake;
-  bake.options = given;
-  return options_for(bake, light);
+  bake.options = options.options;
+  const auto preset = [&bake, &light](const char* name, Quality quality) {
+    bake.quality = quality;
+    return NamedSetting{name, setting_of(options_for(bake, light))};
+  };
+  options.options = options_for(bake, light);
+  options.presets = {preset("draft", Quality::draft), preset("game", Quality::game),
+                     preset("final", Quality::final)};
 }
 
 SweepCallbacks callbacks_for(const Scene& scene, ProgressLine& line) {
@@ -55,7 +61,7 @@ SweepCallbacks callbacks_for(const Scene& scene, ProgressLine& line) {
   callbacks.progress = [&line](const SweepProgress& p) { line.show({p.step, p.done, 0}); };
   callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
   callbacks.metadata = [&scene](const Light& light, const BakeOptions& options, const BakedMap& baked) {
-    return bake_metadata(scene, light, options, baked);
+    return bake_metadata(scene, light, options, baked, nullptr);
   };
   return callbacks;
 }
@@ -90,7 +96,7 @@ int run_tradeoff(TradeoffCommand command) {
   const Scene scene = read_scene(command.scene);
   const Light& light = choose_light(scene, command.light);
   command.options.folder = folder;
-  command.options.options = centre_options(command.options.options, light);
+  set_options(command.options, light);
 
   ProgressLine line("tradeoff", command.quiet);
   const PolledInterrupts interrupts;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/goal_bake.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "cli/interrupt.h"
+#include "cli/progress_line.h"
+#include "pdsm/format/error.h"
+
+namespace pdsm {
+
+ChosenBake bake_to_goals(const BakeCommand& command, const Scene& scene, const Light& light,
+                         const BakeOptions& options, std::optional<double> time_budget) {
+  std::optional<ProgressLine> line;
+  const PolledInterrupts interrupts;
+  TrialCallbacks callbacks;
+  // Each trial has a line of its own, so that its time left is its own too.
+  callbacks.begin = [&](const std::string& what) { line.emplace(light.name + ", " + what, command.quiet); };
+  callbacks.bake.progress = [&](const BakeProgress& progress) { line->show(progress); };
+  callbacks.bake.cancelled = [] { return PolledInterrupts::interrupted(); };
+  Goals goals = command.goals;
+  goals.time_budget = time_budget;
+  return choose_bake(scene, light, options, fixed_options(command), goals, callbacks);
+}
+
+std::string chosen_text(const ChosenBake& chosen) {
+  const Trial& trial = chosen.chosen;
+  double seconds = 0;
+  for (const Trial& each : chosen.trials) seconds += each.seconds();
+  return fmt::format("{}: error {:.5f} +- {:.5f} at {} new points, {:.3f} MB; {} bakes in {:.1f} s",
+                     settings_text(trial.settings), trial.mean_abs_error(), trial.standard_error,
+                     trial.error.points, 1e-6 * static_cast<double>(trial.bytes), chosen.trials.size(),
+                     seconds);
+}
+
+}  // namespace pdsm
