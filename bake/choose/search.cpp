@@ -12,6 +12,7 @@
 #include "choose/laws.h"
 #include "choose/measures.h"
 #include "choose/shortfall.h"
+#include "choose/trial_record.h"
 #include "choose/verdict.h"
 #include "pdsm/bake/view_fit.h"
 #include "pdsm/format/error.h"
@@ -19,22 +20,15 @@
 namespace pdsm {
 namespace {
 
-/// The laws are trusted up to this factor in edge beyond the largest trial, and below the smallest.
-constexpr double kTrustedStep = 3;
-/// From try to try, the edge shrinks by this factor at most: where resolution is hardly any of the error, the
-/// laws do not tell where it begins to be.
-constexpr double kNextStep = 1.5;
-/// From try to try the aim shrinks, so that tries that err come to an end.
-constexpr double kNextAim = 0.95;
 /// What the laws see no way for is tried all the same up to so many times the work that was done already.
 constexpr double kAffordable = 4;
 /// Bakes meant to be the result, at most.
 constexpr std::size_t kMostTries = 4;
-/// Share of a size budget that is aimed at, and below which it was not made use of.
-constexpr double kSizeAim = 0.95, kSizeUsed = 0.88;
+/// Share of a size budget below which it was not made use of.
+constexpr double kSizeUsed = 0.88;
 /// Shares of a time budget: of the star, which takes so many times its base; of the trial that tells the
-/// speed; of everything.
-constexpr double kStarShare = 0.2, kStarTimes = 7, kSpeedShare = 0.2, kTimeAim = 0.85;
+/// speed.
+constexpr double kStarShare = 0.2, kStarTimes = 7, kSpeedShare = 0.2;
 /// A trial that tells the speed has at least this many times the work of the star's.
 constexpr double kTellingWork = 3;
 /// Settings that cost less than this share of others are worth another bake.
@@ -56,30 +50,22 @@ class Search {
 
   ChosenBake run() {
     learn();
-    while (tries_.size() < kMostTries) {
+    while (record_.tries().size() < kMostTries) {
       const std::optional<Settings> settings = choose();
-      if (!settings || was_tried(*settings) || !time_allows(*settings)) break;
+      if (!settings || record_.was_tried(*settings) || !time_allows(*settings)) break;
       if (step_towards(*settings)) continue;
       if (try_settings(*settings)) break;
     }
     std::optional<ChosenBake> best = best_.take();
-    if (!best) throw GoalMissed(explain_miss(goals_, tries_));
-    best->trials = std::move(trials_);
+    if (!best) throw GoalMissed(explain_miss(goals_, record_.tries()));
+    best->trials = record_.trials();
     return std::move(*best);
   }
 
  private:
-  /// Remembers what was seen.
-  void note(const Trial& trial) {
-    trials_.push_back(trial);
-    smallest_edge_ = std::min(smallest_edge_, trial.settings.edge());
-    largest_edge_ = std::max(largest_edge_, trial.settings.edge());
-    largest_work_ = std::max(largest_work_, trial.settings.work());
-  }
-
   Trial small_trial(const std::string& purpose, const Settings& settings, bool with_sampling = false) {
-    note(run_(purpose, settings, trial_measure(options_), with_sampling).trial);
-    return trials_.back();
+    record_.note(run_(purpose, settings, trial_measure(options_), with_sampling).trial);
+    return record_.trials().back();
   }
   [[nodiscard]] Settings base() const {
     return star_base(goals_, space_.aspect, space_.fixed.map_resolution);
@@ -103,19 +89,7 @@ class Search {
   }
 
   [[nodiscard]] Limits limits() const {
-    Limits limits;
-    if (goals_.target_error) {
-      const auto misses = static_cast<double>(tries_.size());
-      limits.error = std::pow(kNextAim, misses) * aim_for(*goals_.target_error, trials_.back());
-    }
-    if (goals_.size_budget) {
-      const double room = static_cast<double>(*goals_.size_budget) - static_cast<double>(kMetadataBytes);
-      limits.bytes = kSizeAim * room;
-    }
-    if (goals_.time_budget) limits.seconds = seconds_left();
-    limits.work = goals_.time_budget ? std::numeric_limits<double>::infinity() : kMostWork;
-    limits.least_edge =
-        tries_.empty() ? smallest_edge_ / kTrustedStep : tries_.back().settings.edge() / kNextStep;
+    Limits limits = record_.limits(goals_);
     limits.edge = edge_limit_;
     return limits;
   }
@@ -127,27 +101,22 @@ class Search {
     if (auto settings = choose_settings(*laws_, space_, wanted, wish)) return settings;
     // The laws may err: where no budget is in the way, what is cheap enough beside the trials is tried all
     // the same.
-    const double affordable = kAffordable * largest_work_;
+    const double affordable = kAffordable * record_.largest_work();
     if (!goals_.size_budget && !goals_.time_budget) {
       const auto exact = most_exact_settings(*laws_, space_, wanted);
       if (exact && exact->work() <= affordable) return exact;
     }
-    if (!tries_.empty()) return std::nullopt;
+    if (!record_.tries().empty()) return std::nullopt;
     throw GoalMissed(explain_shortfall(*laws_, space_, goals_, wanted));
-  }
-
-  [[nodiscard]] bool was_tried(const Settings& settings) const {
-    return std::any_of(tries_.begin(), tries_.end(),
-                       [&](const Trial& trial) { return trial.settings == settings; });
   }
 
   /// Bakes a trial on the way to settings that lie too far from what was seen. False when none is needed.
   bool step_towards(const Settings& settings) {
     if (goals_.time_budget) return step_for_speed();
-    if (settings.edge() <= kTrustedStep * largest_edge_) return false;
+    if (settings.edge() <= TrialRecord::kTrustedStep * record_.largest_edge()) return false;
     // Even steps: the last trial before a large bake is as cheap as can be.
-    const double ratio = settings.edge() / largest_edge_;
-    const double steps = std::ceil(std::log(ratio) / std::log(kTrustedStep));
+    const double ratio = settings.edge() / record_.largest_edge();
+    const double steps = std::ceil(std::log(ratio) / std::log(TrialRecord::kTrustedStep));
     const double scale = std::pow(ratio, 1 / steps - 1);
     Settings step = base();
     step.width = scaled(settings.width, scale);
@@ -177,9 +146,9 @@ class Search {
     if (std::exchange(speed_known_, true)) return false;
     Limits wanted = limits();
     wanted.error = std::numeric_limits<double>::infinity();
-    wanted.seconds = kSpeedShare * *goals_.time_budget - trials_.back().seconds_measure;
+    wanted.seconds = kSpeedShare * *goals_.time_budget - record_.trials().back().seconds_measure;
     const auto step = choose_settings(*laws_, space_, wanted, Wish::least_error);
-    if (!step || step->work() < kTellingWork * largest_work_) return false;
+    if (!step || step->work() < kTellingWork * record_.largest_work()) return false;
     laws_->anchor(small_trial("trial of speed", *step), Laws::Points::same);
     return true;
   }
@@ -189,20 +158,21 @@ class Search {
     ChosenBake bake;
     bake.goals = goals_;
     bake.options = with_settings(options_, settings);
-    bake.measured_by = judging_measure(options_, goals_, tries_.size(), trials_.back(), last_rays_);
+    bake.measured_by =
+        judging_measure(options_, goals_, record_.tries().size(), record_.trials().back(), last_rays_);
     bake.expected_error = laws_->error(settings);
     bake.expected_seconds = laws_->seconds(settings);
     bake.why = describe(settings);
     const bool baked = within_memory(settings, [&] {
-      TrialBake result = run_(fmt::format("try {}", tries_.size() + 1), settings, bake.measured_by, false);
+      TrialBake result =
+          run_(fmt::format("try {}", record_.tries().size() + 1), settings, bake.measured_by, false);
       bake.baked = std::move(result.baked);
       bake.chosen = std::move(result.trial);
     });
     if (!baked) return false;
     const Trial trial = bake.chosen;
     last_rays_ = bake.measured_by.samples;
-    note(trial);
-    tries_.push_back(trial);
+    record_.note_try(trial);
     laws_->anchor(trial, Laws::Points::others);
     if (best_.wants(goals_, trial)) best_.keep(std::move(bake));
     return is_enough(trial);
@@ -231,14 +201,9 @@ class Search {
                        laws_->fit_error(s.epsilon));
   }
 
-  /// For one more bake that is measured as the last one.
-  [[nodiscard]] double seconds_left() const {
-    double spent = 0;
-    for (const Trial& trial : trials_) spent += trial.seconds();
-    return kTimeAim * *goals_.time_budget - spent - trials_.back().seconds_measure;
-  }
   [[nodiscard]] bool time_allows(const Settings& settings) const {
-    return !goals_.time_budget || tries_.empty() || laws_->seconds(settings) <= seconds_left();
+    return !goals_.time_budget || record_.tries().empty() ||
+           laws_->seconds(settings) <= record_.seconds_left(*goals_.time_budget);
   }
 
   const RunTrial& run_;
@@ -246,11 +211,9 @@ class Search {
   Goals goals_;
   ChoiceSpace space_;
   std::optional<Laws> laws_;
-  std::vector<Trial> trials_, tries_;
+  TrialRecord record_;
   BestBake best_;
-  std::uint32_t last_rays_ = trial_measure({}).samples;  ///< a point, of the last trial
-  double smallest_edge_ = std::numeric_limits<double>::infinity();
-  double largest_edge_ = 0, largest_work_ = 0;
+  std::uint32_t last_rays_ = trial_measure({}).samples;          ///< a point, of the last trial
   double edge_limit_ = std::numeric_limits<double>::infinity();  ///< texels, that memory sets
   bool speed_known_ = false;
 };

@@ -51,8 +51,8 @@ using RunTrial = std::function<TrialBake(const std::string& purpose, const Setti
                                      const FixedOptions& fixed, const Goals& goals,
                                      const TrialCallbacks& callbacks = {});
 
-/// Samples x texels beyond which no bake goes unless a time budget allows it: ten minutes on two cores.
-inline constexpr double kMostWork = 4e9;
+/// Samples x map texels beyond which no bake goes unless a time budget allows it: ten minutes on two cores.
+inline constexpr double kMostWork = 1e10;
 
 /// Bytes of a file that goals set aside for its metadata: these take some 1,100.
 inline constexpr std::uint64_t kMetadataBytes = 2048;

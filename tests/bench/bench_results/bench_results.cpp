@@ -16,7 +16,7 @@ namespace pdsm::bench {
 namespace {
 
 void write_tables(const Folders& folders) {
-  replace_tables(folders.results / "README.md", make_tables(folders));
+  replace_tables(folders.results / "README.md", make_tables(folders) + make_front_tables(folders));
 }
 
 void run(const Folders& folders, const std::string& step) {

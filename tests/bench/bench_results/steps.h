@@ -29,6 +29,9 @@ void measure_soft_shadows(const Folders& folders);
 /// All tables as Markdown, ours beside theirs, from the csv files of all steps.
 [[nodiscard]] std::string make_tables(const Folders& folders);
 
+/// Where the defaults stand among other settings, from front-*.csv, as Markdown.
+[[nodiscard]] std::string make_front_tables(const Folders& folders);
+
 /// Puts `tables` into a document between its two marks, in place of what is there. Throws
 /// std::runtime_error when it has no marks.
 void replace_tables(const std::filesystem::path& document, const std::string& tables);

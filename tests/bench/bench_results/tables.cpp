@@ -208,7 +208,7 @@ std::string make_tables(const Folders& folders) {
                   memory_table(read_csv(folders.results / "memory.csv")));
   text += section("Table 3.8: threads", "Dragon, 512 x 512, wall-clock, the least of three runs.",
                   thread_table(read_csv(folders.results / "threads.csv")));
-  text += section("Table 4.1: look-up", "What of this compares is said below.", look_up_tables(folders));
+  text += section("Table 4.1: look-up", "What of this compares is said above.", look_up_tables(folders));
   text += curve_section(curves, "resolution", "Atty et al., figure 17: resolution", "");
   text += curve_section(curves, "light", "Figure 18: size of the light", "");
   text += curve_section(curves, "lateral", "Figure 19: the occluder moves sideways", "");
