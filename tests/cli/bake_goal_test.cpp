@@ -64,13 +64,15 @@ TEST_F(BakeGoal, TheGoalsHoldForWhoeverMeasures) {
 }
 
 TEST_F(BakeGoal, LightsShareATimeBudget) {
+  // Far more than is needed, with next to nothing left to choose: however slow the machine, it is enough.
   const Outcome outcome =
-      run({"bake", "two.scene.json", "-o", "maps", "--time-budget", "4", "--quiet", "--report", "r.json"});
+      run({"bake", "two.scene.json", "-o", "maps", "--time-budget", "2000", "--samples", "16", "--resolution",
+           "32", "--map-resolution", "32", "--epsilon", "0.05", "--quiet", "--report", "r.json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto report = nlohmann::json::parse(contents("r.json"));
   for (const char* light : {"key", "lamp"}) {
     const auto goal = report[light]["goal"];
-    EXPECT_LE(goal["asked"]["time_budget"], light == std::string("key") ? 2.0 : 4.0);
+    EXPECT_LE(goal["asked"]["time_budget"], light == std::string("key") ? 1000.0 : 2000.0);
     EXPECT_GT(goal["seconds"]["predicted"], 0);
     EXPECT_GT(goal["seconds"]["actual"], 0);
     EXPECT_TRUE(exists(std::string("maps/") + light + ".pdsm"));
