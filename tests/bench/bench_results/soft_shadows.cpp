@@ -85,7 +85,7 @@ void plot(const CsvTable& table, const char* varied, const char* label, const st
   std::string script =
       "set terminal svg size 640,380 dynamic font 'sans-serif,13' background '#ffffff'\n"
       "set border 3 lc rgb '#666666'\nset tics nomirror\nset grid lc rgb '#e4e4e4' lt 1\n"
-      "set key top right Left reverse samplen 2\nset yrange [0:*]\nset ylabel 'error'\n";
+      "set key outside right top Left reverse samplen 2\nset yrange [0:*]\nset ylabel 'error'\n";
   script += fmt::format("set xlabel '{}'\nset offsets graph 0.03, graph 0.03, graph 0.1, 0\n", label);
   std::string plots;
   std::size_t index = 0;
