@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <exception>
-#include <new>
 #include <string>
 
 #include "cli/command.h"
-#include "cli/interrupt.h"
+#include "cli/guarded_main.h"
 #include "cli/streams.h"
 #include "pdsm/format/error.h"
 
@@ -53,31 +51,9 @@ int run_command_line(int argc, char** argv) {
   return run();
 }
 
-int report(const std::string& line, Failure failure) {
-  write_error_line(line);
-  return static_cast<int>(failure);
-}
-
-/// The one place where failures become exit codes.
-int guarded_main(int argc, char** argv) {
-  try {
-    const int code = run_command_line(argc, argv);
-    flush_results();
-    return code;
-  } catch (const Error& error) {
-    return report(error.what(), error.failure());
-  } catch (const std::bad_alloc&) {
-    return report("memory: not enough", Failure::resource);
-  } catch (const std::exception& error) {
-    return report(error.what(), Failure::resource);
-  }
-}
-
 }  // namespace
 }  // namespace pdsm
 
 int main(int argc, char** argv) {
-  pdsm::prepare_streams();
-  pdsm::install_interrupt_handler();
-  return pdsm::guarded_main(argc, argv);
+  return pdsm::guarded_main([&] { return pdsm::run_command_line(argc, argv); });
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tradeoff/measure.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "evaluate/map_statistics.h"
 #include "pdsm/bake/view_fit.h"
+#include "tradeoff/processor_time.h"
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
 
@@ -17,16 +16,6 @@ namespace {
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Processor time of all threads so far.
-double cpu_now() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 /// A map with the ends of domain that the centre's has: they do not depend on samples, so one will do.
@@ -79,12 +68,12 @@ Measurer::Baked Measurer::bake_one(const TradeoffSetting& setting, const BakeCal
   Baked result;
   Measurement& m = result.measurement;
   m.setting = setting;
-  const double start = now(), cpu_start = cpu_now();
+  const double start = now(), cpu_start = processor_seconds();
   result.map = bake(input_.scene, light, options, callbacks);
   result.map.map.metadata = input_.metadata(light, options, result.map);
   m.file_bytes = write_encoded_map(result.map.map, result.map.blocks, file_of(setting));
   m.seconds = now() - start;
-  m.cpu_seconds = cpu_now() - cpu_start;
+  m.cpu_seconds = processor_seconds() - cpu_start;
   m.rays = result.map.report.rays;
   m.events = result.map.report.events;
   m.pieces = result.map.report.pieces;
