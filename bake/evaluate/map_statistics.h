@@ -12,8 +12,8 @@ namespace pdsm {
 struct MapStatistics {
   std::uint64_t texels = 0;
   std::uint64_t empty_texels = 0;  ///< V = 0 everywhere
-  std::uint64_t pieces = 0;   ///< that are stored, a vertex each
-  std::uint64_t longest = 0;  ///< pieces of the longest function
+  std::uint64_t pieces = 0;        ///< that are stored, a vertex each
+  std::uint64_t longest = 0;       ///< pieces of the longest function
 };
 
 /// Over all functions of a map.

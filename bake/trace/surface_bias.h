@@ -17,7 +17,7 @@ namespace pdsm {
 struct MapBias {
   double constant = 0;                    ///< metres, the same everywhere
   std::array<double, 2> reach{0.5, 0.5};  ///< map texels along x and y
-  double limited_from = 0;  ///< metres: slopes that add more are kept before the next receiver
+  double limited_from = 0;                ///< metres: slopes that add more are kept before the next receiver
 };
 
 /// The bias of what the rays of one sample's map meet (docs/maths.md, "Bias").

@@ -71,8 +71,7 @@ EncodedBlock encode_block(const VertexCoding& coding, std::uint32_t block_width,
   EncodedBlock encoded;
   encoded.texels = std::uint64_t{block_width} * block_height;
   encoded.vertices = block.first.back();
-  encoded.decoded_bytes =
-      raw_block_size(coding, encoded.texels, encoded.vertices, !block.domain_end.empty());
+  encoded.decoded_bytes = raw_block_size(coding, encoded.texels, encoded.vertices, !block.domain_end.empty());
   if (options.compression == Compression::zstd) {
     encoded.encoding = kEncodingPlanes;
     encoded.bytes = compress_block(coding, block_width, block);
