@@ -79,7 +79,7 @@ Place place_in_view(const PreparedView& prepared, const std::array<double, 3>& p
   // The borders are scaled, not the point, so that a border given as tangent times z is met exactly.
   const double reach = perspective ? p[2] : 1;
   if (!(p[0] >= window[0] * reach && p[0] <= window[2] * reach && p[1] >= window[1] * reach &&
-        p[1] <= window[3] * reach && p[2] == p[2]))
+        p[1] <= window[3] * reach && std::isfinite(p[2])))
     return place;
   const double x = perspective ? p[0] / p[2] : p[0];
   const double y = perspective ? p[1] / p[2] : p[1];

@@ -58,7 +58,7 @@ struct Place {
   CodeDepth z;                  ///< unless is_lit
 };
 
-/// The place of a point in the view's own space. NaNs are outside.
+/// The place of a point in the view's own space. NaNs and infinite depths are outside.
 [[nodiscard]] Place place_in_view(const PreparedView& prepared, const std::array<double, 3>& p);
 
 /// The place of a world point.

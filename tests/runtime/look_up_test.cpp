@@ -326,6 +326,27 @@ TEST(LookUp, NansAreOutside) {
   }
 }
 
+/// In a view that is turned by any angles, one infinite coordinate makes all three infinite.
+TEST(LookUp, NothingIsSeenAtInfinity) {
+  PenumbraMap map = two_texel_map();
+  Random random(4);
+  map.views[0].world_to_view = testing::random_motion(random);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (Projection projection : {Projection::perspective, Projection::orthographic}) {
+    map.views[0].projection = projection;
+    const PenumbraLookUp look_up(map);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (double coordinate : {-infinity, infinity}) {
+        Point p{1, 2, 3};
+        p[axis] = coordinate;
+        const LookUpResult result = look_up.at(p, Filter::bilinear);
+        EXPECT_EQ(result.attenuation, 0.0F);
+        EXPECT_TRUE(result.status == PointStatus::outside || result.status == PointStatus::behind);
+      }
+    }
+  }
+}
+
 TEST(LookUp, OrthographicTakesMetresAndHasNoBehind) {
   PenumbraMap map = two_texel_map();
   map.views[0].projection = Projection::orthographic;
