@@ -5,8 +5,9 @@
 #include <cassert>
 #include <vector>
 
+#include "batch_look_up.h"
 #include "packed_vertices.h"
-#include "prepared_view.h"
+#include "prepared_map.h"
 #include "shader_functions.h"
 
 namespace pdsm {
@@ -92,20 +93,13 @@ bool is_past_end(const Place& place) {
 
 }  // namespace
 
-struct PenumbraLookUp::Prepared {
-  std::vector<PreparedView> views;
-  VertexCoding coding;
-  LayerRule rule = LayerRule::maximum;
-  double value_scale = 1;  ///< attenuation of one value code
+struct PenumbraLookUp::Prepared : PreparedMap {
+  using PreparedMap::PreparedMap;
 
   [[nodiscard]] Place place(const std::array<double, 3>& world_point) const;
   template <typename Vertices>
   [[nodiscard]] float attenuation(const Place& place, Filter filter, double footprint) const;
   [[nodiscard]] LookUpResult result(const Place& place, Filter filter, double footprint) const;
-
-  /// Calls `action` with a value of the PackedVertices type that `coding` asks for.
-  template <typename Action>
-  void with_vertices(Action action) const;
 };
 
 /// The first view whose window holds the point; behind only if it is behind all of them.
@@ -127,37 +121,17 @@ float PenumbraLookUp::Prepared::attenuation(const Place& place, Filter filter, d
   return static_cast<float>(code * value_scale);
 }
 
-template <typename Action>
-void PenumbraLookUp::Prepared::with_vertices(Action action) const {
-  if (coding.depth_bits == 16) {
-    if (coding.value_bits == 8) return action(PackedVertices<16, 8>{});
-    if (coding.value_bits == 16) return action(PackedVertices<16, 16>{});
-    return action(PackedVertices<16, 32>{});
-  }
-  if (coding.value_bits == 8) return action(PackedVertices<32, 8>{});
-  if (coding.value_bits == 16) return action(PackedVertices<32, 16>{});
-  return action(PackedVertices<32, 32>{});
-}
-
 LookUpResult PenumbraLookUp::Prepared::result(const Place& place, Filter filter, double footprint) const {
   LookUpResult result;
   result.status = place.status;
-  with_vertices([&]<typename Vertices>(Vertices) {
+  with_vertices(coding, [&]<typename Vertices>(Vertices) {
     result.attenuation = attenuation<Vertices>(place, filter, footprint);
   });
   if (place.status == PointStatus::inside && is_past_end(place)) result.status = PointStatus::past_end;
   return result;
 }
 
-PenumbraLookUp::PenumbraLookUp(const PenumbraMap& map) {
-  auto prepared = std::make_shared<Prepared>();
-  prepared->coding = map.coding;
-  prepared->rule = map.layer_rule;
-  prepared->value_scale = 1 / static_cast<double>(map.coding.value_max);
-  for (std::uint32_t view = 0; view < map.views.size(); ++view)
-    prepared->views.push_back(prepare_view(map, view));
-  prepared_ = std::move(prepared);
-}
+PenumbraLookUp::PenumbraLookUp(const PenumbraMap& map) : prepared_(std::make_shared<Prepared>(map)) {}
 
 LookUpResult PenumbraLookUp::at(const std::array<double, 3>& world_point, Filter filter,
                                 double footprint) const {
@@ -173,11 +147,7 @@ LookUpResult PenumbraLookUp::at_view_point(const std::array<double, 3>& view_poi
 void PenumbraLookUp::attenuations(std::span<const std::array<double, 3>> world_points, Filter filter,
                                   std::span<float> attenuation) const {
   assert(world_points.size() == attenuation.size());
-  const Prepared& prepared = *prepared_;
-  prepared.with_vertices([&]<typename Vertices>(Vertices) {
-    for (std::size_t n = 0; n < world_points.size(); ++n)
-      attenuation[n] = prepared.attenuation<Vertices>(prepared.place(world_points[n]), filter, 0);
-  });
+  look_up_many(*prepared_, world_points, filter, attenuation);
 }
 
 }  // namespace pdsm

@@ -4,11 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "pdsm/format/penumbra_map.h"
+
 namespace pdsm {
 
 /// Vertices of a block, coded with `DepthBits` and `ValueBits`: the compiler folds all shifts.
 template <std::uint32_t DepthBits, std::uint32_t ValueBits>
 struct PackedVertices {
+  static constexpr std::uint32_t kDepthBits = DepthBits;
   static constexpr std::uint32_t kStride = (DepthBits + 2 * ValueBits + 31) / 32;
   const std::uint32_t* words;
 
@@ -30,5 +33,18 @@ struct PackedVertices {
     }
   }
 };
+
+/// Calls `action` with a value of the PackedVertices type that `coding` asks for.
+template <typename Action>
+void with_vertices(const VertexCoding& coding, Action action) {
+  if (coding.depth_bits == 16) {
+    if (coding.value_bits == 8) return action(PackedVertices<16, 8>{});
+    if (coding.value_bits == 16) return action(PackedVertices<16, 16>{});
+    return action(PackedVertices<16, 32>{});
+  }
+  if (coding.value_bits == 8) return action(PackedVertices<32, 8>{});
+  if (coding.value_bits == 16) return action(PackedVertices<32, 16>{});
+  return action(PackedVertices<32, 32>{});
+}
 
 }  // namespace pdsm
