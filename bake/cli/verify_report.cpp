@@ -54,7 +54,11 @@ std::string verify_json(const VerifyReport& report) {
   Json json;
   json["points"] = result.points;
   json["shadowed_points"] = result.shadowed_points;
+  json["surface_points"] = result.surface_points;
+  json["buried_points"] = result.buried;
   json["mean_abs_error"] = result.mean_abs_error;
+  json["surface_error"] = result.surface_error;
+  json["free_error"] = result.free_error;
   json["rms_error"] = result.rms_error;
   json["p99_error"] = result.p99_error;
   json["max_error"] = result.max_error;
@@ -69,7 +73,7 @@ std::string verify_json(const VerifyReport& report) {
 std::string verify_text(const VerifyReport& report) {
   const VerifyResult& result = report.result;
   const std::string text = fmt::format(
-      "points                {} ({} on surfaces, {} in shadow, {} past the end)\n"
+      "points                {} ({} on surfaces, {} in shadow, {} past the end; {} buried ones left out)\n"
       "mean abs error        {:.5f} (on surfaces {:.5f}, in free space {:.5f})\n"
       "rms error             {:.5f}\n"
       "p99 error             {:.5f}\n"
@@ -77,9 +81,9 @@ std::string verify_text(const VerifyReport& report) {
       "bias                  {:+.5f}\n"
       "truth standard error  {:.5f}\n"
       "Atty et al.'s error   {:.5f}\n",
-      result.points, result.surface_points, result.shadowed_points, result.past_end, result.mean_abs_error,
-      result.surface_error, result.free_error, result.rms_error, result.p99_error, result.max_error,
-      result.bias, result.truth_standard_error, report.atty_error);
+      result.points, result.surface_points, result.shadowed_points, result.past_end, result.buried,
+      result.mean_abs_error, result.surface_error, result.free_error, result.rms_error, result.p99_error,
+      result.max_error, result.bias, result.truth_standard_error, report.atty_error);
   return report.budget ? text + budget_text(*report.budget) : text;
 }
 

@@ -6,13 +6,16 @@
 #include <cmath>
 
 #include "truth/random.h"
-#include "truth/world_scene.h"
+#include "truth/solids.h"
 
 namespace pdsm {
 namespace {
 
 /// Draws per probe before giving up: a window that holds a thousandth of the candidates still fills.
 constexpr std::uint64_t kDrawsPerProbe = 4000;
+
+/// How far off a surface its side is looked at, as a share of the depth: where shadow rays begin.
+constexpr double kOffSurface = 1e-4;
 
 /// A receiver triangle in view space that may have surface in the window.
 struct Candidate {
@@ -69,6 +72,15 @@ glm::dvec3 point_in_triangle(const std::array<glm::dvec3, 3>& corners, const std
   return (1 - root) * corners[0] + root * (1 - unit[1]) * corners[1] + root * unit[1] * corners[2];
 }
 
+/// Whether solids hold each side of the surface at `p` (view space) that counts.
+bool is_buried(const Solids& solids, const RigidTransform& view_to_world, const Candidate& candidate,
+               const glm::dvec3& p) {
+  const auto& c = candidate.corners;
+  const glm::dvec3 off = kOffSurface * p.z * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+  return solids.hold(apply(view_to_world, p + off)) &&
+         (!candidate.both_sides || solids.hold(apply(view_to_world, p - off)));
+}
+
 std::uint32_t texel_of(double value, double low, double high, std::uint32_t count) {
   const double texel = std::floor((value - low) / (high - low) * count);
   return static_cast<std::uint32_t>(std::clamp(texel, 0.0, static_cast<double>(count - 1)));
@@ -111,26 +123,31 @@ double domain_end(const PenumbraMap& map, std::uint32_t i, std::uint32_t j) {
   return decode_depth(view, map.coding, block.domain_end[texel]);
 }
 
-std::vector<glm::dvec3> surface_probes(const Scene& scene, const View& view, std::uint32_t count,
-                                       std::uint64_t seed) {
+SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t count, std::uint64_t seed) {
   std::vector<Candidate> candidates;
   for (const Geometry& geometry : scene.geometry) {
     if (geometry.receives) append_candidates(geometry, view, candidates);
   }
-  std::vector<glm::dvec3> probes;
+  SurfaceProbes probes;
   if (candidates.empty()) return probes;
 
-  // Triangles are drawn by area; what falls outside the window is drawn again.
+  // Triangles are drawn by area; what falls outside the window, or is buried, is drawn again.
   std::vector<double> area_up_to;
   double total = 0;
   for (const Candidate& candidate : candidates) area_up_to.push_back(total += area(candidate.corners));
   const RigidTransform view_to_world = inverse(view.world_to_view);
-  for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.size() < count; ++draw) {
+  const Solids solids(scene);
+  for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.points.size() < count; ++draw) {
     const double at = hash_unit(seed, 2 * draw) * total;
     const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
     const Candidate& candidate = candidates[static_cast<std::size_t>(found - area_up_to.begin())];
     const glm::dvec3 p = point_in_triangle(candidate.corners, hash_unit_pair(seed, 2 * draw + 1));
-    if (in_window(view, p) && p.z <= view.far_depth) probes.push_back(apply(view_to_world, p));
+    if (!in_window(view, p) || p.z > view.far_depth) continue;
+    if (is_buried(solids, view_to_world, candidate, p)) {
+      ++probes.buried;
+    } else {
+      probes.points.push_back(apply(view_to_world, p));
+    }
   }
   return probes;
 }

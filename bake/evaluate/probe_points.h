@@ -11,11 +11,18 @@
 /// Points at which a map is measured. All functions are pure: the same arguments give the same points.
 namespace pdsm {
 
+struct SurfaceProbes {
+  std::vector<glm::dvec3> points;  ///< world space, metres
+  std::uint64_t buried = 0;        ///< that were drawn and left out
+};
+
 /// Up to `count` points on the receivers of `scene` that lie in the window of `view` and not beyond far,
-/// uniform by area. Closed meshes count where they face the light's centre, open ones everywhere. World
-/// space, metres. Fewer, down to none, when hardly any receiver surface qualifies.
-[[nodiscard]] std::vector<glm::dvec3> surface_probes(const Scene& scene, const View& view,
-                                                     std::uint32_t count, std::uint64_t seed);
+/// uniform by area. Closed meshes count where they face the light's centre, open ones everywhere; neither
+/// does within (on all sides that count, a ten-thousandth of the depth off the surface) a closed receiver,
+/// where nothing is seen. Fewer, down to none, when hardly any receiver surface qualifies. Throws Error
+/// (resource) when Embree fails.
+[[nodiscard]] SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t count,
+                                           std::uint64_t seed);
 
 /// Up to `count` points in free space, uniform by volume in the window's pyramid between near and the end
 /// of the domain of the texel that holds them. World space, metres. Fewer when the domain is nearly empty.

@@ -2,6 +2,7 @@
 #include "evaluate/probed_truth.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "evaluate/probe_points.h"
 #include "pdsm/format/error.h"
@@ -34,7 +35,9 @@ ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light&
   const View& view = map.views.front();
   const std::uint32_t on_surfaces = options.free_space ? (options.points + 1) / 2 : options.points;
   ProbedTruth truth;
-  truth.points = surface_probes(scene, view, on_surfaces, hash_bits(options.seed, kSurface));
+  SurfaceProbes on_receivers = surface_probes(scene, view, on_surfaces, hash_bits(options.seed, kSurface));
+  truth.buried = on_receivers.buried;
+  truth.points = std::move(on_receivers.points);
   truth.surface_points = truth.points.size();
   const std::vector<glm::dvec3> in_air =
       free_probes(map, options.points - on_surfaces, hash_bits(options.seed, kFree));

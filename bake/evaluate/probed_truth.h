@@ -22,6 +22,7 @@ struct VerifyOptions {
 struct ProbedTruth {
   std::vector<glm::dvec3> points;  ///< world, metres; those on surfaces first
   std::size_t surface_points = 0;
+  std::uint64_t buried = 0;  ///< further points on surfaces, left out: within solids, where nothing is seen
   std::vector<double> a, b;  ///< attenuations
 
   [[nodiscard]] double value(std::size_t n) const { return 0.5 * (a[n] + b[n]); }

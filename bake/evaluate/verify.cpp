@@ -68,6 +68,7 @@ VerifyResult verify(const PenumbraMap& map, const ProbedTruth& truth) {
   VerifyResult result;
   result.points = truth.points.size();
   result.surface_points = truth.surface_points;
+  result.buried = truth.buried;
   result.shadowed_points = truth.shadowed_points();
   summarise(look_up_errors(map, truth, result), truth, result);
   return result;

@@ -15,6 +15,7 @@ namespace pdsm {
 struct VerifyResult {
   std::uint64_t points = 0;           ///< that were found and measured
   std::uint64_t surface_points = 0;   ///< of them on surfaces, at which the look-up is done as they are
+  std::uint64_t buried = 0;           ///< further points on surfaces, left out: nothing sees them
   std::uint64_t shadowed_points = 0;  ///< with true V > 0
   std::uint64_t past_end = 0;         ///< whose look-up said past_end
   double mean_abs_error = 0;          ///< sum |error| / shadowed_points

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tile/sample_bias.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "walk/ray_path.h"
@@ -12,9 +13,14 @@ namespace {
 constexpr double kWalkReach = 0.5;
 /// The midpoint walk strays up to half a texel more across its major axis.
 constexpr double kMidpointReach = 0.5;
-/// Bilinear look-ups ask a ray about points up to a texel beside it, a third of a texel on average. This
-/// share of a PDSM texel errs least on the evaluation scenes' surfaces (docs/maths.md).
-constexpr double kFilterReach = 0.6;
+/// Bilinear look-ups ask a ray about points up to a PDSM texel beside it. Both reaches together are a whole
+/// one, of which at least this share is theirs: what errs least on surfaces (docs/maths.md).
+constexpr double kLeastFilterReach = 0.5;
+
+/// In map texels.
+double filter_reach(double maps_per_texel) {
+  return std::max(maps_per_texel - kWalkReach, kLeastFilterReach * maps_per_texel);
+}
 
 }  // namespace
 
@@ -22,7 +28,7 @@ MapBias sample_bias(const MapGrid& grid, Walk walk, bool shift_law, const DepthB
                     const LightSample& sample) {
   MapBias bias{depth_bias.constant, {}, depth_bias.limited_from};
   for (std::size_t a = 0; a < 2; ++a)
-    bias.reach[a] = kWalkReach + kFilterReach * grid.ratio[a].maps_per_texel();
+    bias.reach[a] = kWalkReach + filter_reach(grid.ratio[a].maps_per_texel());
   if (walk == Walk::exact) return bias;
   const RayPath path = make_ray_path(grid, sample, 0, 0);
   const bool x_major = std::abs(path.slope[0]) >= std::abs(path.slope[1]);

@@ -29,6 +29,7 @@ TradeoffSetting setting_from(const Json& json) {
 Json error_json(const VerifyResult& e) {
   return {{"points", e.points},
           {"surface_points", e.surface_points},
+          {"buried_points", e.buried},
           {"shadowed_points", e.shadowed_points},
           {"past_end", e.past_end},
           {"mean_abs_error", e.mean_abs_error},
@@ -45,6 +46,7 @@ VerifyResult error_from(const Json& json) {
   VerifyResult e;
   e.points = json.at("points").get<std::uint64_t>();
   e.surface_points = json.at("surface_points").get<std::uint64_t>();
+  e.buried = json.at("buried_points").get<std::uint64_t>();
   e.shadowed_points = json.at("shadowed_points").get<std::uint64_t>();
   e.past_end = json.at("past_end").get<std::uint64_t>();
   e.mean_abs_error = json.at("mean_abs_error").get<double>();

@@ -192,8 +192,8 @@ TEST_P(ExactTruth, SphereOnTheAxis) {
     set_view(light, 0.15, 0.15, 2, kFar);
     const BakedFunctions baked(scene, light, options(3, 3, 24));
     const double reach = texel_reach(GetParam().walk) * baked.map_pitch_x() * std::sqrt(2.0);
-    // The slope bias allows for a quarter of a PDSM texel besides the walk's reach.
-    const double bias_reach = reach + 0.25 * 24 * baked.map_pitch_x() * std::sqrt(2.0);
+    // The slope bias allows for a PDSM texel in place of half a map texel.
+    const double bias_reach = reach + (24 - 0.5) * baked.map_pitch_x() * std::sqrt(2.0);
     const double delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
     const double sampling = sampling_tolerance(outline_strata(kSamples), kSamples);
     const auto truth = [&](double radius, double z) {

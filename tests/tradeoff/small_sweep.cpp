@@ -68,7 +68,7 @@ Measurement example_measurement(std::uint32_t samples) {
   m.pieces = 3;
   m.file_bytes = std::uint64_t{1} << 60;
   m.gpu_bytes = 5;
-  m.error = {6, 7, 8, 9, 0.11, 0.12, 0.13, 0.14, 0.15, 0.16, -0.17, 0.18};
+  m.error = {6, 7, 21, 8, 9, 0.11, 0.12, 0.13, 0.14, 0.15, 0.16, -0.17, 0.18};
   m.tube = {19, 20, -1e-17};
   return m;
 }

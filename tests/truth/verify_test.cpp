@@ -8,6 +8,7 @@
 
 #include "evaluate/probe_points.h"
 #include "plates.h"
+#include "truth/solids.h"
 
 namespace pdsm {
 namespace {
@@ -120,7 +121,7 @@ TEST(SurfaceProbes, LieOnReceiversInTheWindow) {
   Scene scene = plate_over_floor();
   const View view = uniform_map(8, {}).views[0];
   std::uint32_t on_plate = 0;
-  for (const glm::dvec3& p : surface_probes(scene, view, 1000, 5)) {
+  for (const glm::dvec3& p : surface_probes(scene, view, 1000, 5).points) {
     EXPECT_TRUE(in_window(view, p)) << p.x << " " << p.y << " " << p.z;
     const bool plate = std::abs(p.z - 4) < 1e-6;
     EXPECT_TRUE(plate || std::abs(p.z - 8) < 1e-6) << p.z;
@@ -131,9 +132,9 @@ TEST(SurfaceProbes, LieOnReceiversInTheWindow) {
   EXPECT_NEAR(on_plate, 1000 * share, 5 * std::sqrt(1000 * share));
 
   scene.geometry[1].receives = false;
-  for (const glm::dvec3& p : surface_probes(scene, view, 100, 5)) EXPECT_NEAR(p.z, 4, 1e-6);
+  for (const glm::dvec3& p : surface_probes(scene, view, 100, 5).points) EXPECT_NEAR(p.z, 4, 1e-6);
   scene.geometry[0].receives = false;
-  EXPECT_TRUE(surface_probes(scene, view, 100, 5).empty());
+  EXPECT_TRUE(surface_probes(scene, view, 100, 5).points.empty());
 }
 
 TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
@@ -143,7 +144,7 @@ TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
   const View view = uniform_map(8, {}).views[0];
   const auto farthest = [&] {
     double z = 0;
-    for (const glm::dvec3& p : surface_probes(scene, view, 500, 6)) z = std::max(z, p.z);
+    for (const glm::dvec3& p : surface_probes(scene, view, 500, 6).points) z = std::max(z, p.z);
     return z;
   };
   // The horizon of a unit sphere seen from 5 m lies at z = 5 - 1/5; a facet of 7.5 degrees may reach beyond.
@@ -153,6 +154,74 @@ TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
   scene.geometry[0] = mirrored(scene.geometry[0]);
   EXPECT_LT(farthest(), 4.8 + 0.14);
   EXPECT_GT(farthest(), 4.5);
+}
+
+/// A closed box between two corners.
+Geometry box(const glm::vec3& low, const glm::vec3& high) {
+  std::vector<glm::vec3> corners;
+  for (int n = 0; n < 8; ++n)
+    corners.emplace_back(n & 1 ? high.x : low.x, n & 2 ? high.y : low.y, n & 4 ? high.z : low.z);
+  return geometry_of(corners, {{0, 2, 3},
+                               {0, 3, 1},
+                               {4, 5, 7},
+                               {4, 7, 6},
+                               {0, 1, 5},
+                               {0, 5, 4},
+                               {2, 6, 7},
+                               {2, 7, 3},
+                               {0, 4, 6},
+                               {0, 6, 2},
+                               {1, 3, 7},
+                               {1, 7, 5}});
+}
+
+TEST(Solids, HoldWhatClosedReceiversEnclose) {
+  Scene scene;
+  scene.geometry = {box({-1, -1, 4}, {1, 1, 6}), box({0, -1, 5}, {3, 1, 7}), plate(-9, -9, 9, 9, 8)};
+  ASSERT_TRUE(scene.geometry[0].mesh->closed);
+  const auto hold = [&](double x, double z) { return Solids(scene).hold({x, 0.1, z}); };
+  EXPECT_TRUE(hold(-0.5, 5));   // in the first alone
+  EXPECT_TRUE(hold(0.5, 5.5));  // in both
+  EXPECT_TRUE(hold(2, 6));
+  EXPECT_TRUE(hold(-0.999, 4.001));
+  EXPECT_FALSE(hold(-0.5, 3.9));
+  EXPECT_FALSE(hold(-0.5, 6.5));
+  EXPECT_FALSE(hold(2, 7.5));
+  EXPECT_FALSE(hold(2, 8.5));  // an open sheet encloses nothing
+  // Turned inside out, or received by nothing, a solid holds nothing of its own.
+  scene.geometry[1].receives = false;
+  EXPECT_FALSE(hold(2, 6));
+  EXPECT_TRUE(hold(0.5, 5.5));
+  auto turned = std::make_shared<Mesh>(*scene.geometry[0].mesh);
+  for (glm::uvec3& t : turned->triangles) std::swap(t.y, t.z);
+  scene.geometry[0].mesh = turned;
+  EXPECT_FALSE(hold(-0.5, 5));
+}
+
+TEST(SurfaceProbes, LeaveOutWhatSolidsBury) {
+  // A box that stands in the floor by half: the floor's share of its base, and its lower half, are buried.
+  Scene scene;
+  scene.geometry = {box({-0.5, -0.5, 5}, {0.5, 0.5, 7}), box({-9, -9, 6}, {9, 9, 8}),
+                    plate(-0.4, -0.4, 0.4, 0.4, 5.5)};
+  const View view = uniform_map(8, {}).views[0];
+  const SurfaceProbes probes = surface_probes(scene, view, 2000, 5);
+  ASSERT_EQ(probes.points.size(), 2000U);
+  std::uint32_t on_floor = 0;
+  for (const glm::dvec3& p : probes.points) {
+    const bool in_box = std::abs(p.x) < 0.5 && std::abs(p.y) < 0.5 && p.z > 5 + 1e-6;
+    EXPECT_FALSE(in_box) << p.x << " " << p.y << " " << p.z;
+    EXPECT_LT(p.z, 6 + 1e-6);
+    on_floor += p.z > 6 - 1e-6 ? 1 : 0;
+  }
+  // By area: 3.6^2 of floor and 1 of roof are seen, a base of 1 and a sheet of 0.64 on it are not. The
+  // box's sides are turned away from the light.
+  const double floor = 3.6 * 3.6 - 1, seen = floor + 1, share = floor / seen;
+  EXPECT_NEAR(on_floor, 2000 * share, 5 * std::sqrt(2000 * share * (1 - share)));
+  const double buried = 1.64 / seen;
+  EXPECT_NEAR(static_cast<double>(probes.buried), 2000 * buried, 5 * std::sqrt(2000 * buried * (1 + buried)));
+  // Of an open sheet, one side in the air is enough.
+  scene.geometry = {plate(-0.4, -0.4, 0.4, 0.4, 5), box({-0.5, -0.5, 5}, {0.5, 0.5, 7})};
+  EXPECT_EQ(surface_probes(scene, view, 500, 5).buried, 0U);
 }
 
 TEST(FreeProbes, FillTheDomain) {
