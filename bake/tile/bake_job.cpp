@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "pdsm/format/error.h"
+#include "trace/map_rays.h"
 #include "walk/ray_path.h"
 
 namespace pdsm {
@@ -118,6 +119,8 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh = omp_get_wtime() - start;
   if (!fitted.nothing_casts) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
+  if (!fitted.nothing_casts && shift_law())
+    casters = project_casters(light_space, grid, first_caster_depth(grid, samples.front()));
   resident_after_bvh = resident_bytes();
 }
 
@@ -135,6 +138,7 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   bound_samples(samples),
                   caster_clip_depth(fitted, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth,
+                  casters,
                   {}};
   for (std::uint32_t level = 1; level <= mip_levels; ++level)
     input.level_rules.push_back(make_level_rules(rules, level));

@@ -4,6 +4,7 @@
 #include "pdsm/bake/bake.h"
 #include "tile/bake_tile.h"
 #include "tile/slope_limit.h"
+#include "trace/caster_triangles.h"
 #include "trace/embree_scene.h"
 #include "trace/light_space.h"
 
@@ -35,6 +36,7 @@ class BakeJob {
   TilePlan plan;
   LightSpaceScene light_space;
   std::unique_ptr<EmbreeScene> embree;
+  CasterTriangles casters;  ///< none where maps are traced
   double seconds_bvh = 0;
   std::uint64_t resident_after_bvh = 0;
 };

@@ -10,6 +10,7 @@
 #include "tile/shadow_cells.h"
 #include "tile/tile_block.h"
 #include "tile/tile_plan.h"
+#include "trace/caster_triangles.h"
 #include "trace/embree_scene.h"
 
 namespace pdsm {
@@ -29,6 +30,7 @@ struct TileInput {
   LightBounds light_bounds;    ///< of all samples of the bake
   double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
   double depth_rounding = 0;   ///< metres: what traced depths may be off
+  const CasterTriangles& casters;  ///< that maps are made from; none: they are traced
   std::vector<FitRules> level_rules = {};  ///< of mip levels 1, 2, ...; none where none are made
 };
 

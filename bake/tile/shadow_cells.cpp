@@ -48,6 +48,7 @@ class CellMarker {
         cells_{tile,
                (tile.x1 - tile.x0 + kCellSize - 1) / kCellSize,
                (tile.y1 - tile.y0 + kCellSize - 1) / kCellSize,
+               {},
                {}} {
     cells_.dark.assign(cell_count(), 0);
     find_last_ends();
@@ -57,6 +58,7 @@ class CellMarker {
     for (const LightSpaceMesh& mesh : input_.scene.meshes) {
       if (mesh.casts) mark_mesh(mesh);
     }
+    find_idle_casters();
     return std::move(cells_);
   }
 
@@ -118,6 +120,35 @@ class CellMarker {
         dark[cell] = 1;
       }
     }
+  }
+
+  void find_idle_casters() {
+    const auto& large = input_.casters.large;
+    std::vector<std::uint8_t> idle(large.size(), 0);
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
+    for (std::size_t n = 0; n < large.size(); ++n) {
+      const LightSpaceMesh& mesh = input_.scene.meshes[large[n].mesh];
+      idle[n] = can_darken(mesh, mesh.triangles[large[n].triangle]) ? 0 : 1;
+    }
+    for (std::size_t n = 0; n < large.size(); ++n)
+      if (idle[n] != 0) cells_.idle_casters.push_back(large[n].slot);
+  }
+
+  /// Whether a triangle may darken any ray of the cells that are looked at.
+  [[nodiscard]] bool can_darken(const LightSpaceMesh& mesh, const glm::uvec3& t) const {
+    const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
+    double first_depth = std::numeric_limits<double>::infinity();
+    for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
+    if (triangle.count == 0) return false;
+    const CellRange range = find_range(triangle, first_depth);
+    for (std::int64_t y = range.y0; y < range.y1; ++y) {
+      for (std::int64_t x = range.x0; x < range.x1; ++x) {
+        const auto cell = static_cast<std::size_t>(y * cells_.across + x);
+        if (cells_.dark[cell] == 0 || first_depth >= static_cast<double>(last_end_[cell])) continue;
+        if (!stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y))) return true;
+      }
+    }
+    return false;
   }
 
   [[nodiscard]] CellRange find_range(const ClippedTriangle& triangle, double first_depth) const {

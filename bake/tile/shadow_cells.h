@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pdsm/format/penumbra_map.h"
+#include "trace/caster_triangles.h"
 #include "trace/light_space.h"
 #include "trace/sample_map.h"
 #include "walk/map_grid.h"
@@ -35,6 +36,7 @@ struct ShadowCells {
   TexelRect tile;
   std::int32_t across = 0, up = 0;
   std::vector<std::uint8_t> dark;
+  std::vector<std::uint32_t> idle_casters;  ///< slots of large casters that can darken none of them, in order
 
   [[nodiscard]] TexelRect cell_rect(std::int32_t x, std::int32_t y) const;
   [[nodiscard]] bool may_darken(std::int32_t x, std::int32_t y) const {
@@ -53,6 +55,7 @@ struct ShadowCellInput {
   LightBounds light;
   double clip_depth = 0;      ///< casters before this depth are out of the hull of light and window
   double depth_rounding = 0;  ///< metres: what a domain end may be off its surface
+  const CasterTriangles& casters;
   std::uint32_t threads = 1;
 };
 

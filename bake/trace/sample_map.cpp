@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/sample_map.h"
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
+
+#include "trace/map_rays.h"
 
 namespace pdsm {
 namespace {
 
-constexpr int kPacketRays = kPacketEdge * kPacketEdge;
-static_assert(kPacketRays == SurfaceBias::kLanes);
 /// Lanes that a walk may load behind a row's last ray.
 constexpr std::size_t kLoadPadding = 16;
 
@@ -21,57 +20,6 @@ TexelRect widen_to_packets(const TexelRect& rect, std::uint32_t interleave) {
   const auto unit = kPacketEdge * static_cast<std::int32_t>(interleave);
   return {floor_to(rect.x0, unit), floor_to(rect.y0, kPacketEdge), floor_to(rect.x1 + unit - 1, unit),
           floor_to(rect.y1 + kPacketEdge - 1, kPacketEdge)};
-}
-
-/// Rays of one light sample through map texel centres: direction (d_x, d_y, 1), so that t = z - s_z.
-struct RayGenerator {
-  const LightSample& sample;
-  std::array<double, 2> first{}, step{};  // direction of texel 0's centre, change per texel
-  float t_near;
-
-  RayGenerator(const MapGrid& grid, const LightSample& s) : sample(s) {
-    const double focus = grid.focus_depth, distance = focus - s.position[2];
-    for (std::size_t a = 0; a < 2; ++a) {
-      const double slope = grid.origin[a] + (0.5 + s.jitter[a]) * grid.pitch[a];
-      first[a] = (slope * focus - s.position[a]) / distance;
-      step[a] = grid.pitch[a] * focus / distance;
-    }
-    const double t = kEmitterShare * grid.near_depth - s.position[2];
-    t_near = static_cast<float>(std::max(t, 0.0));
-  }
-
-  void fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const {
-    for (int lane = 0; lane < kPacketRays; ++lane) {
-      packet.ray.org_x[lane] = static_cast<float>(sample.position[0]);
-      packet.ray.org_y[lane] = static_cast<float>(sample.position[1]);
-      packet.ray.org_z[lane] = static_cast<float>(sample.position[2]);
-      packet.ray.dir_x[lane] = static_cast<float>(first[0] + step[0] * (x0 + lane % kPacketEdge));
-      packet.ray.dir_y[lane] = static_cast<float>(first[1] + step[1] * (y0 + lane / kPacketEdge));
-      packet.ray.dir_z[lane] = 1;
-      packet.ray.tnear[lane] = t_near;
-      packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-      packet.ray.time[lane] = 0;
-      packet.ray.mask[lane] = kCasterMask;
-      packet.ray.flags[lane] = 0;
-      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    }
-  }
-};
-
-void store(const RTCRayHit16& packet, const SurfaceBias& bias, float origin_z, std::int32_t x0,
-           std::int32_t y0, SampleMap& map, SlopeBiasStatistics& statistics) {
-  alignas(64) float depths[kPacketRays], slopes[kPacketRays];
-  bias.slope_biases(packet, slopes);
-  for (int lane = 0; lane < kPacketRays; ++lane) {
-    const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-    const float depth = origin_z + packet.ray.tfar[lane] + bias.constant() + slopes[lane];
-    depths[lane] = hit ? depth : std::numeric_limits<float>::infinity();
-  }
-  map.set_packet(x0, y0, depths);
-  for (int lane = 0; lane < kPacketRays; ++lane) {
-    statistics.sum += static_cast<double>(slopes[lane]);
-    statistics.max = std::max(statistics.max, slopes[lane]);
-  }
 }
 
 }  // namespace
@@ -93,7 +41,7 @@ void SampleMap::set_packet(std::int64_t x, std::int64_t y, const float* depths) 
     }
     return;
   }
-  for (std::int64_t texel = 0; texel < kPacketRays; ++texel) {
+  for (std::int64_t texel = 0; texel < kMapPacketRays; ++texel) {
     set(x + texel % kPacketEdge, y + texel / kPacketEdge, depths[texel]);
   }
 }
@@ -125,10 +73,10 @@ void PacketMask::want(const TexelRect& texels) {
 std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample,
                                const MapBias& bias, const PacketMask* mask, SampleMap& map,
                                SlopeBiasStatistics& statistics) {
-  const RayGenerator rays(grid, sample);
+  const MapRays rays(grid, sample);
   const SurfaceBias surface_bias(scene, grid, sample, bias);
   const auto origin_z = static_cast<float>(sample.position[2]);
-  alignas(64) int valid[kPacketRays];
+  alignas(64) int valid[kMapPacketRays];
   std::fill(std::begin(valid), std::end(valid), -1);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -141,8 +89,8 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
       if (mask != nullptr && !mask->is_wanted(x, y)) continue;
       rays.fill(packet, x, y);
       rtcIntersect16(valid, scene.handle(), &context, &packet);
-      store(packet, surface_bias, origin_z, x, y, map, statistics);
-      traced += kPacketRays;
+      store_packet(packet, surface_bias, origin_z, x, y, map, statistics);
+      traced += kMapPacketRays;
     }
   }
   return traced;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "trace/light_space.h"
+#include "walk/map_grid.h"
+
+/// All caster triangles, projected once for the maps of all light samples.
+///
+/// A sample s in the light's plane sees the point Q in the texel
+///
+///   g = (Q_xy / Q_z - origin) / pitch  +  s k / pitch  -  jitter,     k = 1/F - 1/Q_z
+///
+/// by the shift law (walk/ray_path.h). So a vertex is its place G in the map of the light's centre, and k:
+/// one multiplication and one addition an axis move it to any sample's map. 1/z is linear over a projected
+/// triangle, and so is k, which grows with depth.
+namespace pdsm {
+
+struct CasterTriangles {
+  /// Triangles that are tested against a map together: a multiple of the lanes of any SIMD.
+  static constexpr std::uint32_t kChunk = 256;
+
+  /// What is left of a triangle when it has been met: `normal` is not of unit length.
+  struct Surface {
+    glm::vec3 normal;
+    std::uint32_t mesh = 0;
+  };
+  /// A triangle that spans so much of a map that it pays to ask whether it matters at all.
+  struct Large {
+    std::uint32_t slot = 0, mesh = 0, triangle = 0;
+  };
+  /// Bounds of a chunk's vertices.
+  struct Bounds {
+    std::array<float, 2> least{}, greatest{};  ///< of G
+    float least_k = 0, greatest_k = 0;
+  };
+
+  /// Corners' G along each axis, and their k: by corner, then by triangle. The last chunk is filled up with
+  /// triangles outside of any map.
+  std::array<std::array<std::vector<float>, 3>, 2> g;
+  std::array<std::vector<float>, 3> k;
+  std::vector<Surface> surfaces;
+  std::vector<Bounds> bounds;  ///< one a chunk
+  std::vector<Large> large;    ///< by slot
+  double focus_depth = 0;
+
+  /// Metres along the ray, of samples in the light's plane.
+  [[nodiscard]] float depth_of(float at_k) const {
+    return static_cast<float>(1 / (1 / focus_depth - static_cast<double>(at_k)));
+  }
+  [[nodiscard]] bool empty() const { return surfaces.empty(); }
+};
+
+/// Projects the casters of `scene`, in the order of meshes and triangles; what is nearer than
+/// `first_depth` > 0 is cut off. Empty where it does not pay, or floats don't serve: no casters, many more
+/// triangles than texels, or triangles that reach far beside the window.
+[[nodiscard]] CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid,
+                                              double first_depth);
+
+}  // namespace pdsm

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/map_rays.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pdsm {
+
+double first_caster_depth(const MapGrid& grid, const LightSample& sample) {
+  return std::max(kEmitterShare * grid.near_depth - sample.position[2], 0.0);
+}
+
+MapRays::MapRays(const MapGrid& grid, const LightSample& sample)
+    : sample_(sample), t_near_(static_cast<float>(first_caster_depth(grid, sample))) {
+  const double focus = grid.focus_depth, distance = focus - sample.position[2];
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double slope = grid.origin[a] + (0.5 + sample.jitter[a]) * grid.pitch[a];
+    first_[a] = (slope * focus - sample.position[a]) / distance;
+    step_[a] = grid.pitch[a] * focus / distance;
+  }
+}
+
+void MapRays::fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const {
+  for (int lane = 0; lane < kMapPacketRays; ++lane) {
+    packet.ray.org_x[lane] = static_cast<float>(sample_.position[0]);
+    packet.ray.org_y[lane] = static_cast<float>(sample_.position[1]);
+    packet.ray.org_z[lane] = static_cast<float>(sample_.position[2]);
+    packet.ray.dir_x[lane] = static_cast<float>(first_[0] + step_[0] * (x0 + lane % kPacketEdge));
+    packet.ray.dir_y[lane] = static_cast<float>(first_[1] + step_[1] * (y0 + lane / kPacketEdge));
+    packet.ray.dir_z[lane] = 1;
+    packet.ray.tnear[lane] = t_near_;
+    packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
+    packet.ray.time[lane] = 0;
+    packet.ray.mask[lane] = kCasterMask;
+    packet.ray.flags[lane] = 0;
+    packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+void store_packet(const RTCRayHit16& packet, const SurfaceBias& bias, float origin_z, std::int32_t x0,
+                  std::int32_t y0, SampleMap& map, SlopeBiasStatistics& statistics) {
+  alignas(64) float depths[kMapPacketRays], slopes[kMapPacketRays];
+  bias.slope_biases(packet, slopes);
+  for (int lane = 0; lane < kMapPacketRays; ++lane) {
+    const bool hit = packet.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    const float depth = origin_z + packet.ray.tfar[lane] + bias.constant() + slopes[lane];
+    depths[lane] = hit ? depth : std::numeric_limits<float>::infinity();
+  }
+  map.set_packet(x0, y0, depths);
+  for (int lane = 0; lane < kMapPacketRays; ++lane) {
+    statistics.sum += static_cast<double>(slopes[lane]);
+    statistics.max = std::max(statistics.max, slopes[lane]);
+  }
+}
+
+}  // namespace pdsm

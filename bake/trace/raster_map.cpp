@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/raster_map.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "trace/map_rays.h"
+
+namespace pdsm {
+namespace {
+
+/// Whether a chunk may touch the image; a texel is added for rounding.
+bool may_touch(const CasterTriangles::Bounds& bounds, const SampleShift& shift, const TexelRect& rect) {
+  const std::int32_t least[2] = {rect.x0, rect.y0}, most[2] = {rect.x1, rect.y1};
+  for (std::size_t a = 0; a < 2; ++a) {
+    const float at_least = shift.scale[a] * bounds.least_k, at_most = shift.scale[a] * bounds.greatest_k;
+    const float low = bounds.least[a] + std::min(at_least, at_most) - shift.shift[a],
+                high = bounds.greatest[a] + std::max(at_least, at_most) - shift.shift[a];
+    if (high < static_cast<float>(least[a]) - 1 || low > static_cast<float>(most[a]) + 1) return false;
+  }
+  return true;
+}
+
+std::span<const std::uint32_t> slots_of_chunk(std::span<const std::uint32_t> slots, std::size_t chunk) {
+  if (slots.empty()) return slots;
+  const std::size_t first = chunk * CasterTriangles::kChunk, last = first + CasterTriangles::kChunk;
+  const auto begin = std::lower_bound(slots.begin(), slots.end(), first);
+  return {begin, std::lower_bound(begin, slots.end(), last)};
+}
+
+/// Turns the rays of a packet into those that have met what the image holds.
+void take_hits(const CasterTriangles& casters, const DepthImage& image, std::int32_t x0, std::int32_t y0,
+               RTCRayHit16& packet) {
+  for (int lane = 0; lane < kMapPacketRays; ++lane) {
+    const std::uint64_t key = image.key(x0 + lane % kPacketEdge, y0 + lane / kPacketEdge);
+    if (key == DepthImage::kNothing) continue;
+    const CasterTriangles::Surface& surface = casters.surfaces[key_triangle(key)];
+    packet.ray.tfar[lane] = casters.depth_of(key_k(key));
+    packet.hit.Ng_x[lane] = surface.normal.x;
+    packet.hit.Ng_y[lane] = surface.normal.y;
+    packet.hit.Ng_z[lane] = surface.normal.z;
+    packet.hit.geomID[lane] = surface.mesh;
+  }
+}
+
+bool is_empty(const DepthImage& image, std::int32_t x0, std::int32_t y0) {
+  for (std::int32_t y = y0; y < y0 + kPacketEdge; ++y)
+    for (std::int32_t x = x0; x < x0 + kPacketEdge; ++x)
+      if (image.key(x, y) != DepthImage::kNothing) return false;
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles& casters, const MapGrid& grid,
+                                const LightSample& sample, const MapBias& bias,
+                                std::span<const std::uint32_t> left_out, const PacketMask& mask,
+                                DepthImage& image, SampleMap& map, SlopeBiasStatistics& statistics) {
+  SampleShift shift;
+  for (std::size_t a = 0; a < 2; ++a) {
+    shift.scale[a] = static_cast<float>(sample.position[a] / grid.pitch[a]);
+    shift.shift[a] = static_cast<float>(sample.jitter[a] + 0.5);
+  }
+  const TexelRect& rect = map.rect();
+  image.reset(rect);
+  for (std::size_t chunk = 0; chunk < casters.bounds.size(); ++chunk) {
+    if (may_touch(casters.bounds[chunk], shift, rect))
+      enter_chunk(casters, static_cast<std::uint32_t>(chunk), shift, slots_of_chunk(left_out, chunk), image);
+  }
+  const MapRays rays(grid, sample);
+  const SurfaceBias surface_bias(scene, grid, sample, bias);
+  float nothing[kMapPacketRays];
+  std::fill(std::begin(nothing), std::end(nothing), std::numeric_limits<float>::infinity());
+  RTCRayHit16 packet;
+  std::uint64_t looked_at = 0;
+  for (std::int32_t y = rect.y0; y < rect.y1; y += kPacketEdge) {
+    for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
+      if (!mask.is_wanted(x, y)) continue;
+      looked_at += kMapPacketRays;
+      if (is_empty(image, x, y)) {
+        map.set_packet(x, y, nothing);
+        continue;
+      }
+      rays.fill(packet, x, y);
+      take_hits(casters, image, x, y, packet);
+      store_packet(packet, surface_bias, 0, x, y, map, statistics);
+    }
+  }
+  return looked_at;
+}
+
+}  // namespace pdsm

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "trace/caster_triangles.h"
+#include "trace/sample_map.h"
+
+namespace pdsm {
+
+/// What is nearest at each texel of one sample's map: the greater half of a key orders by depth, the lower
+/// is the triangle. So the least key wins, whatever the order.
+struct DepthImage {
+  static constexpr std::uint64_t kNothing = std::numeric_limits<std::uint64_t>::max();
+
+  TexelRect rect;
+  std::int32_t pitch = 0;
+  std::vector<std::uint64_t> keys;
+
+  void reset(const TexelRect& texels) {
+    rect = texels;
+    pitch = texels.x1 - texels.x0;
+    keys.assign(texels.area(), kNothing);
+  }
+  [[nodiscard]] std::uint64_t key(std::int32_t x, std::int32_t y) const {
+    return keys[static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(pitch) +
+                static_cast<std::size_t>(x - rect.x0)];
+  }
+};
+
+/// k of a key (CasterTriangles).
+[[nodiscard]] float key_k(std::uint64_t key);
+[[nodiscard]] inline std::uint32_t key_triangle(std::uint64_t key) {
+  return static_cast<std::uint32_t>(key);
+}
+
+/// Moves G to one sample's map, where texel centres are whole numbers: g = G + scale k - shift.
+struct SampleShift {
+  std::array<float, 2> scale{}, shift{};
+};
+
+/// Enters the triangles of a chunk at all texels of `image` whose centres they cover. A centre on an edge is
+/// covered by both triangles that share it: nothing slips through. Slots `left_out` are passed over. SIMD of the widest kind this machine has;
+/// the image is the same for all, as each step is rounded in the same way.
+void enter_chunk(const CasterTriangles& casters, std::uint32_t chunk, const SampleShift& shift,
+                 std::span<const std::uint32_t> left_out, DepthImage& image);
+
+}  // namespace pdsm
