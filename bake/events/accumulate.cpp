@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "events/sort_keys.h"
+
 namespace pdsm {
 
 void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events) {
@@ -22,8 +24,8 @@ void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_co
   events.first.pop_back();
 }
 
-void accumulate(std::span<EventKey> keys, StepFunction& function) {
-  std::sort(keys.begin(), keys.end());
+void accumulate(std::span<EventKey> keys, StepFunction& function, std::vector<EventKey>& room) {
+  sort_keys(keys, room);
   sum_events(keys, function);
 }
 

@@ -26,8 +26,8 @@ struct BlockEvents {
 /// the order within a texel is not defined (see accumulate()).
 void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events);
 
-/// Sorts the keys of one texel and sums them up (sum_events).
-void accumulate(std::span<EventKey> keys, StepFunction& function);
+/// Sorts the keys of one texel and sums them up (sum_events). `room` is to work in.
+void accumulate(std::span<EventKey> keys, StepFunction& function, std::vector<EventKey>& room);
 
 /// Sums up sorted keys in integers. Events at one depth are applied together, so the result depends on the
 /// set of events alone. Replaces the contents of `function`.

@@ -114,7 +114,7 @@ class BlockFit {
   void sum_up(std::size_t level, std::span<EventKey> keys) {
     const double before = omp_get_wtime();
     if (level == 0)
-      accumulate(keys, thread_.function);
+      accumulate(keys, thread_.function, thread_.merge_room);
     else
       sum_events(keys, thread_.function);
     accumulated_ += omp_get_wtime() - before;

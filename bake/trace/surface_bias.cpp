@@ -59,6 +59,8 @@ void SurfaceBias::keep_before_next_receiver(const RTCRayHit16& packet, float* sl
     onwards.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
   }
   ReceiverContext facing(Heading::from_light);
+  // Few lanes of a packet go on, and from unlike depths.
+  facing.context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   rtcIntersect16(valid.data(), scene_.handle(), &facing.context, &onwards);
   for (int lane = 0; lane < kLanes; ++lane) {
     if (valid[static_cast<std::size_t>(lane)] == 0 || !met(onwards, lane)) continue;

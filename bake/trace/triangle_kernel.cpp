@@ -23,10 +23,9 @@ constexpr std::uint32_t kVectorLanes = hn::MaxLanes(FloatTag());
 constexpr int kSmallTexels = 3;
 
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<FloatTag> mask) {
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(FloatTag(), mask, bits);
-  const std::uint32_t all = static_cast<std::uint32_t>(bits[0]) | (static_cast<std::uint32_t>(bits[1]) << 8);
-  return all & ((1u << kVectorLanes) - 1);
+  std::uint64_t bits = 0;  // 8 bytes at most are written
+  hn::StoreMaskBits(FloatTag(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return static_cast<std::uint32_t>(bits) & ((1u << kVectorLanes) - 1);
 }
 
 /// Floats as integers of the same order.
@@ -105,7 +104,7 @@ void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std
 }
 
 /// Enters triangles at one texel each.
-HWY_INLINE void enter_small(const Corners& t, Float x, Float y, std::uint32_t small, std::uint32_t first,
+HWY_INLINE void enter_at(const Corners& t, Float x, Float y, std::uint32_t small, std::uint32_t first,
                             DepthImage& image) {
   const Coverage c = cover(t, x, y);
   std::uint32_t bits = mask_bits(c.covered) & small;
@@ -119,6 +118,28 @@ HWY_INLINE void enter_small(const Corners& t, Float x, Float y, std::uint32_t sm
   for (; bits != 0; bits &= bits - 1) {
     const auto n = static_cast<std::uint32_t>(std::countr_zero(bits));
     enter(image.keys[static_cast<std::size_t>(texel[n])], order[n], first + n);
+  }
+}
+
+/// First and last texels of triangles' bounds, inclusive, a triangle a lane.
+struct Bounds {
+  Float x0, x1, y0, y1;
+};
+
+/// Enters the triangles of lanes `small`, texel by texel of their bounds, all lanes together.
+HWY_INLINE void enter_small(const Corners& t, const Bounds& bounds, std::uint32_t small, std::uint32_t first,
+                            DepthImage& image) {
+  const Float one = hn::Set(FloatTag(), 1.0F);
+  Float y = bounds.y0;
+  for (int row = 0; row < kSmallTexels; ++row, y = hn::Add(y, one)) {
+    const std::uint32_t in_row = small & mask_bits(hn::Le(y, bounds.y1));
+    if (in_row == 0) return;
+    Float x = bounds.x0;
+    for (int column = 0; column < kSmallTexels; ++column, x = hn::Add(x, one)) {
+      const std::uint32_t here = in_row & mask_bits(hn::Le(x, bounds.x1));
+      if (here == 0) break;
+      enter_at(t, x, y, here, first, image);
+    }
   }
 }
 
@@ -157,12 +178,7 @@ void enter_triangles(const CasterTriangles& casters, std::uint32_t chunk, const 
     const Float reach = hn::Set(d, kSmallTexels - 1);
     const std::uint32_t small = bits & mask_bits(hn::And(hn::Le(hn::Sub(last_x, first_x), reach),
                                                          hn::Le(hn::Sub(last_y, first_y), reach)));
-    for (int n = 0; n < kSmallTexels * kSmallTexels && small != 0; ++n) {
-      const Float x = hn::Add(first_x, hn::Set(d, static_cast<float>(n % kSmallTexels)));
-      const Float y = hn::Add(first_y, hn::Set(d, static_cast<float>(n / kSmallTexels)));
-      const std::uint32_t here = small & mask_bits(hn::And(hn::Le(x, last_x), hn::Le(y, last_y)));
-      if (here != 0) enter_small(corners, x, y, here, first, image);
-    }
+    if (small != 0) enter_small(corners, {first_x, last_x, first_y, last_y}, small, first, image);
     if (small == bits) continue;
     Extent extent;
     hn::Store(first_x, d, extent.x0);
