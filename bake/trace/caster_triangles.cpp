@@ -14,7 +14,7 @@ constexpr double kMostPerTexel = 32;
 /// four such lengths: 1/128 of a texel, in the worst case.
 constexpr float kFarthest = 0x1p15F;
 /// Texels along an axis from which on a triangle is large.
-constexpr double kLargeTexels = 64;
+constexpr float kLargeTexels = 64;
 /// Where the triangles lie that only fill a chunk up.
 constexpr float kNowhere = -0x1p20F;
 
@@ -25,60 +25,89 @@ struct Corner {
 
 class Projector {
  public:
-  Projector(const MapGrid& grid, double first_depth) : grid_(grid), first_depth_(first_depth) {
+  Projector(const MapGrid& grid, double first_depth, std::uint32_t threads)
+      : grid_(grid), first_depth_(first_depth), threads_(threads) {
     result_.focus_depth = grid.focus_depth;
   }
 
-  void reserve(std::size_t triangles) {
-    const std::size_t slots = (triangles / CasterTriangles::kChunk + 1) * CasterTriangles::kChunk;
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      result_.k[corner].reserve(slots);
-      for (auto& axis : result_.g) axis[corner].reserve(slots);
+  /// Every triangle's slots follow from those before it, so that threads can fill them in any order.
+  void run(const LightSpaceScene& scene) {
+    std::vector<std::vector<std::uint32_t>> first_slots;
+    std::uint32_t slots = 0;
+    for (const LightSpaceMesh& mesh : scene.meshes) first_slots.push_back(count_slots(mesh, slots));
+    resize(slots);
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+      const LightSpaceMesh& mesh = scene.meshes[m];
+      if (!mesh.casts) continue;
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(threads_))
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        fill(mesh, mesh.triangles[t], static_cast<std::uint32_t>(m), first_slots[m][t]);
     }
-    result_.surfaces.reserve(triangles);
+    result_.bounds.resize(result_.k[0].size() / CasterTriangles::kChunk);
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(threads_))
+    for (std::size_t chunk = 0; chunk < result_.bounds.size(); ++chunk)
+      result_.bounds[chunk] = bound_chunk(chunk * CasterTriangles::kChunk);
+    for (std::size_t chunk = 0; chunk < result_.bounds.size(); ++chunk) list_large(chunk, first_slots);
   }
 
-  void add(const LightSpaceMesh& mesh, std::uint32_t mesh_index, std::uint32_t triangle) {
-    const auto before = static_cast<std::uint32_t>(result_.surfaces.size());
-    append_parts(mesh, mesh.triangles[triangle], mesh_index);
-    for (auto slot = before; slot < result_.surfaces.size(); ++slot)
-      if (is_large(slot)) result_.large.push_back({slot, mesh_index, triangle});
+  /// Whether floats serve.
+  [[nodiscard]] bool is_near() const {
+    return std::ranges::all_of(result_.bounds, [](const CasterTriangles::Bounds& bounds) {
+      return bounds.least[0] >= -kFarthest && bounds.least[1] >= -kFarthest &&
+             bounds.greatest[0] <= kFarthest && bounds.greatest[1] <= kFarthest;
+    });
   }
 
-  CasterTriangles release() {
-    while (result_.k[0].size() % CasterTriangles::kChunk != 0) append_nothing();
-    for (std::size_t first = 0; first < result_.k[0].size(); first += CasterTriangles::kChunk)
-      result_.bounds.push_back(bound_chunk(first));
-    return too_far_ ? CasterTriangles{} : std::move(result_);
-  }
+  CasterTriangles release() { return std::move(result_); }
 
  private:
-  /// Appends what is left of a triangle behind the first depth: one triangle, two, or none.
-  void append_parts(const LightSpaceMesh& mesh, const glm::uvec3& t, std::uint32_t mesh_index) {
+  /// First slot of each triangle, from `slots` on, which is moved behind them. What is cut off takes none, a
+  /// triangle that loses one corner becomes two.
+  [[nodiscard]] std::vector<std::uint32_t> count_slots(const LightSpaceMesh& mesh,
+                                                       std::uint32_t& slots) const {
+    std::vector<std::uint32_t> first;
+    if (!mesh.casts) return first;
+    first.reserve(mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles) {
+      first.push_back(slots);
+      const int kept = (is_behind(mesh.positions[t.x]) ? 1 : 0) + (is_behind(mesh.positions[t.y]) ? 1 : 0) +
+                       (is_behind(mesh.positions[t.z]) ? 1 : 0);
+      slots += kept == 0 ? 0 : kept == 2 ? 2 : 1;
+    }
+    return first;
+  }
+
+  [[nodiscard]] bool is_behind(const glm::dvec3& p) const { return p.z >= first_depth_; }
+
+  void resize(std::size_t slots) {
+    const std::size_t whole =
+        (slots + CasterTriangles::kChunk - 1) / CasterTriangles::kChunk * CasterTriangles::kChunk;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      result_.k[corner].resize(whole, 0);
+      for (auto& axis : result_.g) axis[corner].resize(whole, kNowhere);
+    }
+    result_.surfaces.resize(slots);
+  }
+
+  /// Fills a triangle's slots, from `slot` on.
+  void fill(const LightSpaceMesh& mesh, const glm::uvec3& t, std::uint32_t mesh_index, std::uint32_t slot) {
     const glm::dvec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
     const CasterTriangles::Surface surface{
         glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]),
         mesh_index};
-    if (p[0].z >= first_depth_ && p[1].z >= first_depth_ && p[2].z >= first_depth_) {
-      append(project(p[0]), project(p[1]), project(p[2]), surface);
-      return;
-    }
     Corner kept[4];
     int count = 0;
     for (int n = 0; n < 3; ++n) {
       const glm::dvec3 &a = p[n], &b = p[(n + 1) % 3];
-      if (a.z >= first_depth_) kept[count++] = project(a);
-      if ((a.z >= first_depth_) != (b.z >= first_depth_)) kept[count++] = project(cut(a, b));
+      if (is_behind(a)) kept[count++] = project(a);
+      if (is_behind(a) != is_behind(b)) kept[count++] = project(cut(a, b));
     }
-    for (int n = 2; n < count; ++n) append(kept[0], kept[n - 1], kept[n], surface);
-  }
-
-  [[nodiscard]] bool is_large(std::size_t slot) const {
-    for (const auto& corners : result_.g) {
-      const auto [least, greatest] = std::minmax({corners[0][slot], corners[1][slot], corners[2][slot]});
-      if (static_cast<double>(greatest) - static_cast<double>(least) >= kLargeTexels) return true;
+    for (int n = 2; n < count; ++n, ++slot) {
+      put(slot, 0, kept[0]);
+      put(slot, 1, kept[n - 1]);
+      put(slot, 2, kept[n]);
+      result_.surfaces[slot] = surface;
     }
-    return false;
   }
 
   [[nodiscard]] Corner project(const glm::dvec3& p) const {
@@ -97,31 +126,20 @@ class Projector {
     return p;
   }
 
-  void append(const Corner& a, const Corner& b, const Corner& c, const CasterTriangles::Surface& surface) {
-    const Corner* const corners[3] = {&a, &b, &c};
-    for (std::size_t n = 0; n < 3; ++n) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const auto g = static_cast<float>(corners[n]->g[axis]);
-        too_far_ = too_far_ || !(std::abs(g) <= kFarthest);
-        result_.g[axis][n].push_back(g);
-      }
-      result_.k[n].push_back(static_cast<float>(corners[n]->k));
-    }
-    result_.surfaces.push_back(surface);
+  void put(std::size_t slot, std::size_t n, const Corner& corner) {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      result_.g[axis][n][slot] = static_cast<float>(corner.g[axis]);
+    result_.k[n][slot] = static_cast<float>(corner.k);
   }
 
-  void append_nothing() {
-    for (std::size_t n = 0; n < 3; ++n) {
-      for (auto& axis : result_.g) axis[n].push_back(kNowhere);
-      result_.k[n].push_back(0);
-    }
+  [[nodiscard]] std::size_t chunk_end(std::size_t first) const {
+    return std::min(first + CasterTriangles::kChunk, result_.surfaces.size());
   }
 
   [[nodiscard]] CasterTriangles::Bounds bound_chunk(std::size_t first) const {
     constexpr float kMost = std::numeric_limits<float>::infinity();
     CasterTriangles::Bounds bounds{{kMost, kMost}, {-kMost, -kMost}, kMost, -kMost};
-    const std::size_t last = std::min(first + CasterTriangles::kChunk, result_.surfaces.size());
-    for (std::size_t t = first; t < last; ++t) {
+    for (std::size_t t = first; t < chunk_end(first); ++t) {
       for (std::size_t n = 0; n < 3; ++n) {
         for (std::size_t a = 0; a < 2; ++a) {
           bounds.least[a] = std::min(bounds.least[a], result_.g[a][n][t]);
@@ -134,29 +152,47 @@ class Projector {
     return bounds;
   }
 
+  void list_large(std::size_t chunk, const std::vector<std::vector<std::uint32_t>>& first_slots) {
+    const CasterTriangles::Bounds& bounds = result_.bounds[chunk];
+    const auto is_wide = [&](std::size_t a) { return bounds.greatest[a] - bounds.least[a] >= kLargeTexels; };
+    if (!is_wide(0) && !is_wide(1)) return;
+    const std::size_t first = chunk * CasterTriangles::kChunk;
+    for (std::size_t slot = first; slot < chunk_end(first); ++slot) {
+      if (!is_large(slot)) continue;
+      const std::uint32_t mesh = result_.surfaces[slot].mesh;
+      const auto& slots = first_slots[mesh];
+      const auto next = std::upper_bound(slots.begin(), slots.end(), slot);
+      result_.large.push_back({static_cast<std::uint32_t>(slot), mesh,
+                               static_cast<std::uint32_t>(next - slots.begin() - 1)});
+    }
+  }
+
+  [[nodiscard]] bool is_large(std::size_t slot) const {
+    for (const auto& corners : result_.g) {
+      const auto [least, greatest] = std::minmax({corners[0][slot], corners[1][slot], corners[2][slot]});
+      if (greatest - least >= kLargeTexels) return true;
+    }
+    return false;
+  }
+
   const MapGrid& grid_;
   double first_depth_;
+  std::uint32_t threads_;
   CasterTriangles result_;
-  bool too_far_ = false;
 };
 
 }  // namespace
 
-CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid, double first_depth) {
+CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid, double first_depth,
+                                std::uint32_t threads) {
   std::size_t triangles = 0;
   for (const LightSpaceMesh& mesh : scene.meshes) triangles += mesh.casts ? mesh.triangles.size() : 0;
   double texels = 1;
   for (std::size_t a = 0; a < 2; ++a) texels *= grid.texels[a] * grid.ratio[a].maps_per_texel();
   if (triangles == 0 || static_cast<double>(triangles) > kMostPerTexel * texels) return {};
-  Projector projector(grid, first_depth);
-  projector.reserve(triangles);
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    const LightSpaceMesh& mesh = scene.meshes[m];
-    if (!mesh.casts) continue;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      projector.add(mesh, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t));
-  }
-  return projector.release();
+  Projector projector(grid, first_depth, threads);
+  projector.run(scene);
+  return projector.is_near() ? projector.release() : CasterTriangles{};
 }
 
 }  // namespace pdsm

@@ -58,6 +58,6 @@ struct CasterTriangles {
 /// `first_depth` > 0 is cut off. Empty where it does not pay, or floats don't serve: no casters, many more
 /// triangles than texels, or triangles that reach far beside the window.
 [[nodiscard]] CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid,
-                                              double first_depth);
+                                              double first_depth, std::uint32_t threads);
 
 }  // namespace pdsm

@@ -9,6 +9,9 @@
 namespace pdsm {
 namespace {
 
+/// Packets.
+constexpr std::int32_t kFetchedAhead = 2;
+
 /// Whether a chunk may touch the image; a texel is added for rounding.
 bool may_touch(const CasterTriangles::Bounds& bounds, const SampleShift& shift, const TexelRect& rect) {
   const std::int32_t least[2] = {rect.x0, rect.y0}, most[2] = {rect.x1, rect.y1};
@@ -40,6 +43,15 @@ void take_hits(const CasterTriangles& casters, const DepthImage& image, std::int
     packet.hit.Ng_y[lane] = surface.normal.y;
     packet.hit.Ng_z[lane] = surface.normal.z;
     packet.hit.geomID[lane] = surface.mesh;
+  }
+}
+
+/// Asks for the surfaces of a packet ahead of their use: they lie far apart.
+void fetch_surfaces(const CasterTriangles& casters, const DepthImage& image, std::int32_t x0,
+                    std::int32_t y0) {
+  for (int n = 0; n < kMapPacketRays; ++n) {
+    const std::uint64_t key = image.key(x0 + n % kPacketEdge, y0 + n / kPacketEdge);
+    if (key != DepthImage::kNothing) __builtin_prefetch(&casters.surfaces[key_triangle(key)]);
   }
 }
 
@@ -75,6 +87,8 @@ std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles&
   std::uint64_t looked_at = 0;
   for (std::int32_t y = rect.y0; y < rect.y1; y += kPacketEdge) {
     for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
+      const std::int32_t ahead = x + kFetchedAhead * kPacketEdge;
+      if (ahead < rect.x1 && mask.is_wanted(ahead, y)) fetch_surfaces(casters, image, ahead, y);
       if (!mask.is_wanted(x, y)) continue;
       looked_at += kMapPacketRays;
       if (is_empty(image, x, y)) {
