@@ -139,9 +139,10 @@ void trace_strip(const TileInput& input, const LightSample& sample, const TexelR
   }
   thread.statistics.rays +=
       input.casters.empty()
-          ? trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map, thread.slope_bias)
-          : raster_sample_map(input.scene, input.casters, input.grid, sample, bias, cells.idle_casters, thread.mask, thread.image,
-                              thread.map, thread.slope_bias);
+          ? trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map,
+                             thread.slope_bias)
+          : raster_sample_map(input.scene, input.casters, input.grid, sample, bias, cells.idle_casters,
+                              thread.mask, thread.image, thread.map, thread.slope_bias);
   thread.shift.bind(thread.map);
 }
 
@@ -216,8 +217,8 @@ class TileJob {
     failure_.rethrow();
     if (input_.nothing_casts || !input_.shift_law) return;
     const ShadowCellInput cell_input{input_.scene.geometry(), input_.grid,           input_.light_bounds,
-                                     input_.clip_depth,       input_.depth_rounding,
-                                     input_.casters, input_.threads};
+                                     input_.clip_depth,       input_.depth_rounding, input_.casters,
+                                     input_.threads};
     cells_ = find_shadow_cells(cell_input, tile_,
                                [this](std::int32_t i, std::int32_t j) { return domain_end(i, j); });
 #pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))

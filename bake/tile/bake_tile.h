@@ -26,10 +26,10 @@ struct TileInput {
   DepthBias bias;
   FitRules rules;
   std::uint32_t threads = 1;
-  bool nothing_casts = false;  ///< every function is empty: trace no maps
-  LightBounds light_bounds;    ///< of all samples of the bake
-  double clip_depth = 0;       ///< casters before this depth are out of the hull of light and window
-  double depth_rounding = 0;   ///< metres: what traced depths may be off
+  bool nothing_casts = false;      ///< every function is empty: trace no maps
+  LightBounds light_bounds;        ///< of all samples of the bake
+  double clip_depth = 0;           ///< casters before this depth are out of the hull of light and window
+  double depth_rounding = 0;       ///< metres: what traced depths may be off
   const CasterTriangles& casters;  ///< that maps are made from; none: they are traced
   std::vector<FitRules> level_rules = {};  ///< of mip levels 1, 2, ...; none where none are made
 };

@@ -13,7 +13,7 @@ namespace pdsm {
 
 /// What one thread owns while fitting.
 struct FitThread {
-  BlockEvents events, next_events;  ///< of a level, and of the next
+  BlockEvents events, next_events;   ///< of a level, and of the next
   std::vector<EventKey> merge_room;  ///< for sorting, too
   StepFunction function;
   FitWorkspace room;

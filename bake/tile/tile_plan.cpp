@@ -8,6 +8,7 @@
 
 #include "events/event_log.h"
 #include "pdsm/format/error.h"
+#include "trace/triangle_kernel.h"
 #include "walk/general_walk.h"
 #include "walk/shift_walk.h"
 
@@ -77,7 +78,8 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   for (const LightSample& sample : input.samples) {
     const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
     const std::uint64_t bytes = SampleMap::bytes_for(footprint, input.grid.ratio[0].fine);
-    largest = std::max(largest, bytes);
+    // What is nearest is found in an image of its own, where maps are projected.
+    largest = std::max(largest, bytes + DepthImage::bytes_for(footprint));
     margin_factor += static_cast<double>(bytes / sizeof(float)) / static_cast<double>(first.area());
   }
   const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];

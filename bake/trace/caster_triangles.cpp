@@ -58,7 +58,9 @@ class Projector {
     });
   }
 
-  CasterTriangles release() { return std::move(result_); }
+  CasterTriangles release() {
+    return std::move(result_);
+  }
 
  private:
   /// First slot of each triangle, from `slots` on, which is moved behind them. What is cut off takes none, a
@@ -77,7 +79,9 @@ class Projector {
     return first;
   }
 
-  [[nodiscard]] bool is_behind(const glm::dvec3& p) const { return p.z >= first_depth_; }
+  [[nodiscard]] bool is_behind(const glm::dvec3& p) const {
+    return p.z >= first_depth_;
+  }
 
   void resize(std::size_t slots) {
     const std::size_t whole =
@@ -162,8 +166,8 @@ class Projector {
       const std::uint32_t mesh = result_.surfaces[slot].mesh;
       const auto& slots = first_slots[mesh];
       const auto next = std::upper_bound(slots.begin(), slots.end(), slot);
-      result_.large.push_back({static_cast<std::uint32_t>(slot), mesh,
-                               static_cast<std::uint32_t>(next - slots.begin() - 1)});
+      result_.large.push_back(
+          {static_cast<std::uint32_t>(slot), mesh, static_cast<std::uint32_t>(next - slots.begin() - 1)});
     }
   }
 

@@ -32,7 +32,8 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<FloatTag> mask) {
 HWY_INLINE hn::Vec<IntTag> order_bits(Float k) {
   const IntTag d;
   const auto bits = hn::BitCast(d, k);
-  return hn::Xor(bits, hn::Or(hn::ShiftRight<31>(bits), hn::Set(d, std::numeric_limits<std::int32_t>::min())));
+  return hn::Xor(bits,
+                 hn::Or(hn::ShiftRight<31>(bits), hn::Set(d, std::numeric_limits<std::int32_t>::min())));
 }
 
 /// Corners of triangles in a sample's map, a triangle a lane, or one triangle in all lanes.
@@ -57,8 +58,7 @@ HWY_INLINE Coverage cover(const Corners& t, Float px, Float py) {
   const Float zero = hn::Zero(d), sum = hn::Add(hn::Add(e0, e1), e2);
   const auto least = hn::Min(hn::Min(e0, e1), e2), greatest = hn::Max(hn::Max(e0, e1), e2);
   const auto covered = hn::And(hn::Or(hn::Ge(least, zero), hn::Le(greatest, zero)), hn::Ne(sum, zero));
-  const Float k =
-      hn::Div(hn::Add(hn::Add(hn::Mul(e0, t.k0), hn::Mul(e1, t.k1)), hn::Mul(e2, t.k2)), sum);
+  const Float k = hn::Div(hn::Add(hn::Add(hn::Mul(e0, t.k0), hn::Mul(e1, t.k1)), hn::Mul(e2, t.k2)), sum);
   const Float low = hn::Min(hn::Min(t.k0, t.k1), t.k2), high = hn::Max(hn::Max(t.k0, t.k1), t.k2);
   return {covered, hn::Min(hn::Max(k, low), high)};
 }
@@ -82,7 +82,8 @@ void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std
   for (int n = 0; n < 9; ++n) hn::Store(all[n], d, x[n]);
   const auto one = [&](int n) { return hn::Set(d, x[n][lane]); };
   const Corners corners{one(0), one(1), one(2), one(3), one(4), one(5), one(6), one(7), one(8)};
-  const auto last = static_cast<std::int32_t>(extent.x1[lane]), y1 = static_cast<std::int32_t>(extent.y1[lane]);
+  const auto last = static_cast<std::int32_t>(extent.x1[lane]),
+             y1 = static_cast<std::int32_t>(extent.y1[lane]);
   alignas(64) std::int32_t order[kVectorLanes];
   for (auto y = static_cast<std::int32_t>(extent.y0[lane]); y <= y1; ++y) {
     std::uint64_t* const row =
@@ -105,7 +106,7 @@ void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std
 
 /// Enters triangles at one texel each.
 HWY_INLINE void enter_at(const Corners& t, Float x, Float y, std::uint32_t small, std::uint32_t first,
-                            DepthImage& image) {
+                         DepthImage& image) {
   const Coverage c = cover(t, x, y);
   std::uint32_t bits = mask_bits(c.covered) & small;
   if (bits == 0) return;

@@ -26,6 +26,10 @@ struct DepthImage {
     pitch = texels.x1 - texels.x0;
     keys.assign(texels.area(), kNothing);
   }
+  /// Bytes that reset(texels) takes.
+  [[nodiscard]] static std::uint64_t bytes_for(const TexelRect& texels) {
+    return texels.area() * sizeof(std::uint64_t);
+  }
   [[nodiscard]] std::uint64_t key(std::int32_t x, std::int32_t y) const {
     return keys[static_cast<std::size_t>(y - rect.y0) * static_cast<std::size_t>(pitch) +
                 static_cast<std::size_t>(x - rect.x0)];
@@ -44,8 +48,8 @@ struct SampleShift {
 };
 
 /// Enters the triangles of a chunk at all texels of `image` whose centres they cover. A centre on an edge is
-/// covered by both triangles that share it: nothing slips through. Slots `left_out` are passed over. SIMD of the widest kind this machine has;
-/// the image is the same for all, as each step is rounded in the same way.
+/// covered by both triangles that share it: nothing slips through. Slots `left_out` are passed over. SIMD of
+/// the widest kind this machine has; the image is the same for all, as each step is rounded in the same way.
 void enter_chunk(const CasterTriangles& casters, std::uint32_t chunk, const SampleShift& shift,
                  std::span<const std::uint32_t> left_out, DepthImage& image);
 
