@@ -118,8 +118,8 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   light_space = to_light_space(scene, fitted.view.world_to_view);
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh = omp_get_wtime() - start;
-  if (!fitted.nothing_casts) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
-  if (!fitted.nothing_casts && shift_law())
+  if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
+  if (has_shadows() && shift_law())
     casters = project_casters(light_space, grid, first_caster_depth(grid, samples.front()), options.threads);
   resident_after_bvh = resident_bytes();
 }
@@ -134,7 +134,7 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   depth_bias(),
                   rules,
                   options.threads,
-                  fitted.nothing_casts && options.light_samples.empty(),
+                  !has_shadows(),
                   bound_samples(samples),
                   caster_clip_depth(fitted, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth,
@@ -144,6 +144,11 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
     input.level_rules.push_back(make_level_rules(rules, level));
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
   return input;
+}
+
+bool BakeJob::has_shadows() const {
+  // Samples that the caller brings may see casters that the light's shape does not.
+  return !fitted.nothing_casts || !options.light_samples.empty();
 }
 
 bool BakeJob::shift_law() const {

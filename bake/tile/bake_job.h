@@ -22,6 +22,9 @@ class BakeJob {
   /// What all maps have in common of their bias.
   [[nodiscard]] DepthBias depth_bias() const { return {bias, slope_limit.from}; }
 
+  /// Whether any function may be other than empty.
+  [[nodiscard]] bool has_shadows() const;
+
   /// Whether all samples lie in the light's plane, so that one walk serves all rays of each.
   [[nodiscard]] bool shift_law() const;
 

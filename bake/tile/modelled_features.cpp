@@ -47,9 +47,13 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
 void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
   const std::uint64_t texels = std::uint64_t{job.grid.texels[0]} * job.grid.texels[1];
   const std::uint64_t samples = job.samples.size();
-  const bool casts = !job.fitted.nothing_casts;
+  const bool casts = job.has_shadows();
   list.either(casts, "shadow maps", "casters lie between light and window",
               "no caster lies between light and window", counted(samples, "shadow maps"));
+  if (casts)
+    list.either(job.casters.empty(), "tracing of shadow maps",
+                "light samples lie out of the light's plane, or triangles are many or far beside the window",
+                "triangles are projected into them", counted(samples, "traced maps"));
   if (casts && job.shift_law())
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));

@@ -75,6 +75,18 @@ TEST(ModelOnly, GentleSlopesAreLimitedWhereReceiversLieCloseBehind) {
   EXPECT_EQ(feature(far, name).saved, "9 maps of second rays");
 }
 
+TEST(ModelOnly, MapsAreTracedWhereTrianglesReachFarBesideTheWindow) {
+  const BakeOptions options = small_options(40, 40, 9);
+  const char* name = "tracing of shadow maps";
+  const BakedFunctions projected(plate_over_floor(), key_light(), options);
+  EXPECT_FALSE(feature(projected, name).modelled);
+  EXPECT_EQ(feature(projected, name).saved, "9 traced maps");
+  // A wall that passes the light: its edge at the emitter is seen under a slope of 1e4.
+  Scene scene = plate_over_floor();
+  add(scene, quad_mesh({2, -1, -1}, {2, 1, -1}, {2, 1, 7}, {2, -1, 7}));
+  EXPECT_TRUE(feature({scene, key_light(), options}, name).modelled);
+}
+
 TEST(ModelOnly, RaysThatNothingCanDarkenAreNotTraced) {
   // A plate over a corner of the window leaves cells far from it alone.
   Scene scene;
