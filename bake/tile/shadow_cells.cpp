@@ -105,19 +105,27 @@ class CellMarker {
   }
 
   void mark_triangle(const LightSpaceMesh& mesh, const glm::uvec3& t, std::vector<std::uint8_t>& dark) const {
+    for_each_cell_near(mesh, t, [&](std::int32_t x, std::int32_t y, std::size_t cell, bool are_many) {
+      if (dark[cell] == 0 && !(are_many && stays_in_front(mesh, t, x, y))) dark[cell] = 1;
+      return true;
+    });
+  }
+
+  /// Calls visit(x, y, cell, are_many) for the cells that a triangle may reach before their ends, until it
+  /// returns false; `are_many`: so many are in range that asking for each may pay.
+  template <typename Visitor>
+  void for_each_cell_near(const LightSpaceMesh& mesh, const glm::uvec3& t, Visitor&& visit) const {
     const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
     if (triangle.count == 0) return;
     double first_depth = std::numeric_limits<double>::infinity();
     for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
     const CellRange range = find_range(triangle, first_depth);
-    const bool ask_plane = range.count() >= kManyCells;
+    const bool are_many = range.count() >= kManyCells;
     for (std::int64_t y = range.y0; y < range.y1; ++y) {
       for (std::int64_t x = range.x0; x < range.x1; ++x) {
         const auto cell = static_cast<std::size_t>(y * cells_.across + x);
-        if (dark[cell] != 0 || first_depth >= static_cast<double>(last_end_[cell])) continue;
-        if (ask_plane && stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)))
-          continue;
-        dark[cell] = 1;
+        if (first_depth >= static_cast<double>(last_end_[cell])) continue;
+        if (!visit(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), cell, are_many)) return;
       }
     }
   }
@@ -136,19 +144,12 @@ class CellMarker {
 
   /// Whether a triangle may darken any ray of the cells that are looked at.
   [[nodiscard]] bool can_darken(const LightSpaceMesh& mesh, const glm::uvec3& t) const {
-    const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
-    double first_depth = std::numeric_limits<double>::infinity();
-    for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
-    if (triangle.count == 0) return false;
-    const CellRange range = find_range(triangle, first_depth);
-    for (std::int64_t y = range.y0; y < range.y1; ++y) {
-      for (std::int64_t x = range.x0; x < range.x1; ++x) {
-        const auto cell = static_cast<std::size_t>(y * cells_.across + x);
-        if (cells_.dark[cell] == 0 || first_depth >= static_cast<double>(last_end_[cell])) continue;
-        if (!stays_in_front(mesh, t, static_cast<std::int32_t>(x), static_cast<std::int32_t>(y))) return true;
-      }
-    }
-    return false;
+    bool found = false;
+    for_each_cell_near(mesh, t, [&](std::int32_t x, std::int32_t y, std::size_t cell, bool) {
+      found = cells_.dark[cell] != 0 && !stays_in_front(mesh, t, x, y);
+      return !found;
+    });
+    return found;
   }
 
   [[nodiscard]] CellRange find_range(const ClippedTriangle& triangle, double first_depth) const {

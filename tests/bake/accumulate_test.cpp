@@ -42,7 +42,6 @@ StepFunction accumulate_plainly(const std::vector<EventKey>& keys) {
   std::map<float, int> changes;
   for (const EventKey k : keys) changes[key_depth(k)] += key_unblocks(k) ? -1 : 1;
   StepFunction function;
-  std::vector<EventKey> room;
   int blocked = 0;
   for (const auto& [depth, change] : changes) {
     blocked += change;

@@ -59,7 +59,7 @@ TEST(ModelOnly, ReceiversOutsideTheWindowCostNothing) {
 
 TEST(ModelOnly, GentleSlopesAreLimitedWhereReceiversLieCloseBehind) {
   // A sheet that rises by 3 m in 4 m, over a floor that is parallel to it or far below. A texel's footprint
-  // at far is 8 / 40 m: the slope adds up to 1.1 * 3/4 of that, less than four footprints.
+  // at far is 8 / 40 m: the slope adds up to about 3/4 of that, less than four footprints.
   const BakeOptions options = small_options(40, 40, 9);
   const auto sheet_over = [](double gap) {
     const auto corner = [](double x, double y, double z) { return glm::dvec3(x, y, z + 0.75 * x); };

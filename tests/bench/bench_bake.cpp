@@ -9,10 +9,9 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstring>
 #include <vector>
 
+#include "count_argument.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/error.h"
@@ -96,25 +95,13 @@ double time_plain(const BakeJob& job, std::uint64_t& events) {
   return omp_get_wtime() - start;
 }
 
-/// Argument `n` as a count; `otherwise` where it is not given.
-std::uint32_t count_argument(int argc, char** argv, int n, std::uint32_t otherwise) {
-  if (n >= argc) return otherwise;
-  std::uint32_t value = 0;
-  const char* end = argv[n] + std::strlen(argv[n]);
-  const auto [stop, fault] = std::from_chars(argv[n], end, value);
-  if (fault != std::errc() || stop != end || value == 0) {
-    throw Error(Failure::usage, argv[n], "is not a count of 1 or more");
-  }
-  return value;
-}
-
 void run(int argc, char** argv) {
   const Scene scene = read_scene(argv[1]);
   const Light& light = scene.lights.front();
-  const std::uint32_t runs = count_argument(argc, argv, 2, 5);
+  const std::uint32_t runs = bench::count_argument(argc, argv, 2, 5);
   BakeOptions options;
-  options.width = options.height = count_argument(argc, argv, 3, options.width);
-  options.samples = count_argument(argc, argv, 4, options.samples);
+  options.width = options.height = bench::count_argument(argc, argv, 3, options.width);
+  options.samples = bench::count_argument(argc, argv, 4, options.samples);
   const BakeJob job(scene, light, options);
   std::vector<double> trace, baked, ratio;
   BakeReport report;

@@ -15,6 +15,7 @@
 #include <random>
 #include <vector>
 
+#include "count_argument.h"
 #include "pdsm/format/error.h"
 #include "pdsm/format/map_file.h"
 #include "pdsm/runtime/look_up.h"
@@ -122,12 +123,12 @@ struct Case {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int rounds = argc == 3 ? std::atoi(argv[2]) : 15;
-  if (argc < 2 || argc > 3 || rounds < 1) {
+  if (argc < 2 || argc > 3) {
     fmt::print(stderr, "usage: bench_look_up MAP [ROUNDS]\n");
     return 2;
   }
   try {
+    const std::uint32_t rounds = bench::count_argument(argc, argv, 2, 15);
     const PenumbraMap map = read_map(argv[1]);
     const PenumbraLookUp look_up(map);
     const Points random = random_points(map), surface = surface_points(map);
@@ -135,7 +136,7 @@ int main(int argc, char** argv) {
                     {"random bilinear", random, Filter::bilinear, {}, {}, {}},
                     {"surface nearest", surface, Filter::nearest, {}, {}, {}},
                     {"surface bilinear", surface, Filter::bilinear, {}, {}, {}}};
-    for (int round = 0; round < rounds; ++round)
+    for (std::uint32_t round = 0; round < rounds; ++round)
       for (Case& c : cases) c.run(look_up);
     fmt::print("points,one_at_a_time,many_at_once,ratio\n");
     for (const Case& c : cases)

@@ -7,12 +7,12 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
 
+#include "../count_argument.h"
 #include "egl_context.h"
 #include "evaluate/camera.h"
 #include "evaluate/picture_scene.h"
@@ -267,24 +267,17 @@ int measure(const std::string& scene_path, const std::string& map_path, std::uin
   return 0;
 }
 
-/// A whole number from 1 on; 0 when it is none.
-int positive(const char* text) {
-  int value = 0;
-  const char* end = text + std::strlen(text);
-  const auto [stop, fault] = std::from_chars(text, end, value);
-  return fault == std::errc() && stop == end && value > 0 ? value : 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int edge = argc > 3 ? positive(argv[3]) : 1024, runs = argc > 4 ? positive(argv[4]) : 15;
-  if (argc < 3 || argc > 5 || edge == 0 || runs == 0) {
+  if (argc < 3 || argc > 5) {
     fmt::print(stderr, "usage: bench_shadow_pass SCENE MAP [EDGE] [RUNS]\n");
     return 2;
   }
   try {
-    return measure(argv[1], argv[2], static_cast<std::uint32_t>(edge), runs);
+    const std::uint32_t edge = pdsm::bench::count_argument(argc, argv, 3, 1024),
+                        runs = pdsm::bench::count_argument(argc, argv, 4, 15);
+    return measure(argv[1], argv[2], edge, static_cast<int>(runs));
   } catch (const pdsm::Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return static_cast<int>(error.failure());
