@@ -175,13 +175,14 @@ void print_prediction(const Scene& scene, const Job& job) {
       "  rays               {}\n"
       "  events             {}\n"
       "  time               about {}\n"
-      "  memory             {:.1f} MB\n"
+      "  memory             {:.0f} MB, {:.0f} MB of them scene and BVH\n"
       "  tiles              {} of {} x {} texels\n"
       "  window             [{:.6g}, {:.6g}, {:.6g}, {:.6g}]{}\n"
       "  near, far          {:.6g}, {:.6g} m\n"
       "  receivers outside  {:.2f}%\n",
       job.light->name, prediction.rays, prediction.events, minutes_text(prediction.seconds),
-      1e-6 * static_cast<double>(prediction.memory_bytes), prediction.tiles, prediction.tile, prediction.tile,
+      1e-6 * static_cast<double>(prediction.scene_bytes + prediction.memory_bytes),
+      1e-6 * static_cast<double>(prediction.scene_bytes), prediction.tiles, prediction.tile, prediction.tile,
       window[0], window[1], window[2], window[3], fitted.window_fitted ? ", fitted" : "",
       fitted.view.near_depth, fitted.view.far_depth, 100 * fitted.receivers_outside));
 }

@@ -99,16 +99,17 @@ class FunctionFit {
   std::int64_t reach(std::int64_t at) {
     lines_.start(at, tube_[run_].low, tube_[run_].high);
     for (std::int64_t last = at;;) {
-      const TubeRun& here = tube_[run_];
-      const std::int64_t border = run_end(run_);
-      if (!lines_.passes(border, here.low, here.high)) {
+      const TubeRun &here = tube_[run_], &next = tube_[run_ + 1];
+      const std::int64_t border = next.begin;
+      const std::int64_t low = std::max(here.low, next.low), high = std::min(here.high, next.high);
+      const bool passes_both = lines_.passes(border, low, high);
+      if (!passes_both && !lines_.passes(border, here.low, here.high)) {
         const std::int64_t end = lines_.reach(last, border, here.low, here.high);
         if (end > last) lines_.add(end, here.low, here.high);
         return end;
       }
-      const TubeRun& next = tube_[++run_];
-      const std::int64_t low = std::max(here.low, next.low), high = std::min(here.high, next.high);
-      if (run_ + 1 == tube_.size() || !lines_.passes(border, low, high)) {
+      ++run_;
+      if (!passes_both || run_ + 1 == tube_.size()) {
         lines_.add(border, here.low, here.high);
         return border;
       }

@@ -15,7 +15,7 @@ constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 /// with k, and since 2 delta holds a code, segment k + 1 opens before k closes.
 void find_reach(const StepFunction& function, const FitRules& rules, TubeWorkspace& room) {
   const std::size_t steps = function.depth.size();
-  room.opens.resize(steps + 1);
+  room.opens.resize(steps + 2);
   room.closes.resize(steps + 1);
   room.opens[0] = 0;
   for (std::size_t k = 0; k < steps; ++k) {
@@ -23,33 +23,45 @@ void find_reach(const StepFunction& function, const FitRules& rules, TubeWorkspa
     room.opens[k + 1] = round_up(std::max(at - rules.tolerance_codes, 0.0));
     room.closes[k] = static_cast<std::int64_t>(std::max(at + rules.tolerance_codes, 0.0));
   }
-  room.closes[steps] = kNever;
+  room.closes[steps] = room.opens[steps + 1] = kNever;
 }
 
-/// Minimum (or maximum, by `Before`) of the counts of a sliding range of segments: a monotone queue.
-template <typename Before>
-class SlidingExtreme {
+CountRange join(const CountRange& a, const CountRange& b) {
+  return {std::min(a.least, b.least), std::max(a.greatest, b.greatest)};
+}
+
+/// Counts of a sliding range of segments, a queue of two stacks: ranges from each of its older segments to
+/// the last of these are at hand, the newer ones are summed up in one. Hardly a branch that a processor can't
+/// foresee.
+class SlidingRange {
  public:
-  SlidingExtreme(std::vector<std::uint32_t>& queue, const StepFunction& function)
-      : queue_(queue), function_(function) {
-    queue_.clear();
+  SlidingRange(std::vector<CountRange>& older, const StepFunction& function)
+      : older_(older), count_(function.count.data()) {
+    older_.resize(function.count.size() + 1);
+    older_[0] = range_of(0);
   }
-  void push(std::uint32_t segment) {
-    while (queue_.size() > head_ && !Before()(count(queue_.back()), count(segment))) queue_.pop_back();
-    queue_.push_back(segment);
+  /// Moves the range's begin, and its end to `end`.
+  void drop_before(std::uint32_t first, std::uint32_t end) {
+    if (first < newer_from_) return;
+    CountRange range;
+    for (std::uint32_t segment = end; segment-- > first;)
+      older_[segment] = range = join(range, range_of(segment));
+    newer_from_ = end;
+    newer_ = {};
   }
-  void drop_before(std::uint32_t segment) {
-    while (queue_[head_] < segment) ++head_;
-  }
-  [[nodiscard]] std::uint32_t get() const { return count(queue_[head_]); }
+  void push(std::uint32_t segment) { newer_ = join(newer_, range_of(segment)); }
+  [[nodiscard]] CountRange from(std::uint32_t first) const { return join(older_[first], newer_); }
 
  private:
-  [[nodiscard]] std::uint32_t count(std::uint32_t segment) const {
-    return segment == 0 ? 0 : function_.count[segment - 1];
+  [[nodiscard]] CountRange range_of(std::uint32_t segment) const {
+    const std::uint32_t count = segment == 0 ? 0 : count_[segment - 1];
+    return {count, count};
   }
-  std::vector<std::uint32_t>& queue_;
-  const StepFunction& function_;
-  std::size_t head_ = 0;
+
+  std::vector<CountRange>& older_;
+  const std::uint32_t* count_;
+  CountRange newer_;
+  std::uint32_t newer_from_ = 1;
 };
 
 }  // namespace
@@ -58,24 +70,25 @@ void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspa
                 std::vector<TubeRun>& tube) {
   find_reach(function, rules, room);
   tube.clear();
-  const auto segments = static_cast<std::uint32_t>(room.opens.size());
-  SlidingExtreme<std::less<>> least(room.least, function);
-  SlidingExtreme<std::greater<>> greatest(room.greatest, function);
-  std::uint32_t first = 0, next = 0;  // segments [first, next) are within delta
-  std::int64_t at = 0;
+  const std::int64_t *const opens = room.opens.data(), *const closes = room.closes.data();
   const std::int64_t last_code = rules.coding.depth_max();
+  SlidingRange counts(room.older, function);
+  std::uint32_t first = 0, next = 1;  // segments [first, next) are within delta
+  std::int64_t at = 0, low = -1, high = -1;
+  // Opens and closes one segment at a time; what happens at the same code makes one run.
   while (at <= last_code) {
-    while (next < segments && room.opens[next] <= at) {
-      least.push(next);
-      greatest.push(next);
-      ++next;
+    if (closes[first] <= at) ++first;
+    if (opens[next] <= at) counts.push(next++);
+    counts.drop_before(first, next);
+    const std::int64_t after = std::min(closes[first], opens[next]);
+    const CountRange range = counts.from(first);
+    const std::int64_t run_low = rules.lower_of(range.least), run_high = rules.upper_of(range.greatest);
+    if ((after > at) & ((run_low != low) | (run_high != high))) {
+      tube.push_back({at, run_low, run_high});
+      low = run_low;
+      high = run_high;
     }
-    while (room.closes[first] <= at) ++first;
-    least.drop_before(first);
-    greatest.drop_before(first);
-    const std::int64_t low = rules.lower_of(least.get()), high = rules.upper_of(greatest.get());
-    if (tube.empty() || tube.back().low != low || tube.back().high != high) tube.push_back({at, low, high});
-    at = std::min(room.closes[first], next < segments ? room.opens[next] : kNever);
+    at = after;
   }
   // What holds beyond the last code is V's last value, which the last run has room for.
   const std::uint32_t last_count = function.count.back();

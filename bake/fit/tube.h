@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,10 +20,15 @@ struct TubeRun {
   std::int64_t begin = 0, low = 0, high = 0;
 };
 
+/// Counts [least, greatest]; of no segment at all, if not told otherwise.
+struct CountRange {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max(), greatest = 0;
+};
+
 /// Room to work in; keep one a thread.
 struct TubeWorkspace {
-  std::vector<std::int64_t> opens, closes;     ///< of each segment of V
-  std::vector<std::uint32_t> least, greatest;  ///< monotone queues of segments
+  std::vector<std::int64_t> opens, closes;  ///< of each segment of V, and an end
+  std::vector<CountRange> older;            ///< of a range of segments that slides along V
 };
 
 /// The tube of V. Beyond its last step V is held, as the domain rule asks. O(steps).

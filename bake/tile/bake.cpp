@@ -54,11 +54,13 @@ class TileRun {
       const TexelRect tile = todo.front();
       todo.pop_front();
       const double share = share_of(tile, job_.grid);
+      const std::uint64_t events_before = statistics_.events;
       const TileOutcome outcome = bake_tile(
           input_, tile, job_.plan.strips, job_.plan.event_limit, sink_,
           [&](double part) { return poll(done_ + share * part); }, statistics_);
       if (outcome == TileOutcome::cancelled) throw Error(Failure::interrupted, "bake", "interrupted");
       if (outcome == TileOutcome::done) {
+        largest_events_ = std::max(largest_events_, statistics_.events - events_before);
         done_ += share;
         ++tiles_;
         continue;
@@ -73,6 +75,8 @@ class TileRun {
   }
 
   [[nodiscard]] std::uint64_t tiles() const { return tiles_; }
+  /// Of the tile that has most.
+  [[nodiscard]] std::uint64_t largest_events() const { return largest_events_; }
 
  private:
   bool poll(double done) {
@@ -91,7 +95,7 @@ class TileRun {
   const BakeCallbacks callbacks_;
   TileStatistics statistics_;
   double start_, last_told_ = 0, done_ = 0;
-  std::uint64_t tiles_ = 0;
+  std::uint64_t tiles_ = 0, largest_events_ = 0;
 };
 
 /// The map without its blocks.
@@ -188,10 +192,11 @@ BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOp
   prediction.rays = static_cast<std::uint64_t>(static_cast<double>(done.rays) * scale);
   prediction.events = static_cast<std::uint64_t>(static_cast<double>(done.events) * scale);
   prediction.seconds = job.seconds_bvh + done.prepare + per_sample * scale;
-  const std::uint64_t tile_events =
-      sizeof(PackedEvent) * prediction.events / std::max<std::uint64_t>(1, job.plan.tiles.size());
+  const auto tile_events =
+      static_cast<std::uint64_t>(scale * static_cast<double>(sizeof(PackedEvent) * run.largest_events()));
   prediction.memory_bytes =
       job.plan.map_bytes + job.plan.output_bytes + std::min(job.plan.event_limit, tile_events);
+  prediction.scene_bytes = job.resident_after_bvh;
   prediction.tile = job.plan.edge;
   prediction.tiles = static_cast<std::uint32_t>(job.plan.tiles.size());
   return prediction;

@@ -3,7 +3,8 @@
 //   trace  the sample maps traced alone: width x height x samples rays, rtcIntersect16, coherent, robust,
 //          all threads, the same BVH
 //   bake   all of a bake but loading and BVH
-//   plain  algorithm 3.1 as the thesis has it: per-ray scan conversion into an ordered list a texel
+//   plain  algorithm 3.1 of the thesis, as it would be written first (plain_bake.h); tracing counts, a fit it
+//   has none
 // usage: bench_bake SCENE [RUNS] [MAP_EDGE] [SAMPLES] [plain]
 #include <fmt/core.h>
 #include <omp.h>
@@ -15,9 +16,8 @@
 #include "pdsm/bake/bake.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/error.h"
+#include "plain_bake.h"
 #include "tile/bake_job.h"
-#include "walk/general_walk.h"
-#include "walk/reference_walk.h"
 
 namespace {
 
@@ -66,35 +66,6 @@ double time_trace(const BakeJob& job) {
   return omp_get_wtime() - start;
 }
 
-/// Algorithm 3.1: all maps first, then texel by texel. The maps' tracing counts, the fit does not.
-double time_plain(const BakeJob& job, std::uint64_t& events) {
-  const double start = omp_get_wtime();
-  const auto width = static_cast<std::int32_t>(job.grid.texels[0]),
-             height = static_cast<std::int32_t>(job.grid.texels[1]);
-  std::vector<std::multiset<ReferenceEvent>> functions(std::size_t{job.grid.texels[0]} * job.grid.texels[1]);
-  const MapBias bias{job.bias, {0.5, 0.5}};
-  for (const LightSample& sample : job.samples) {
-    SampleMap map;
-    SlopeBiasStatistics statistics;
-    map.reset(general_footprint(job.grid, sample, {0, 0, width, height}), job.grid.ratio[0].fine);
-    trace_sample_map(*job.embree, job.grid, sample, bias, nullptr, map, statistics);
-    const MapDepth depth = [&](std::int64_t x, std::int64_t y) { return map.at(x, y); };
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(job.options.threads))
-    for (std::int32_t j = 0; j < height; ++j) {
-      for (std::int32_t i = 0; i < width; ++i) {
-        const RayPath path =
-            make_ray_path(job.grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-        insert_reference_events(
-            path, job.options.walk, depth, static_cast<float>(job.grid.far_depth),
-            functions[static_cast<std::size_t>(j) * job.grid.texels[0] + static_cast<std::size_t>(i)]);
-      }
-    }
-  }
-  events = 0;
-  for (const auto& function : functions) events += function.size();
-  return omp_get_wtime() - start;
-}
-
 void run(int argc, char** argv) {
   const Scene scene = read_scene(argv[1]);
   const Light& light = scene.lights.front();
@@ -122,10 +93,13 @@ void run(int argc, char** argv) {
   fmt::print("share trace {:.2f} walk {:.2f} accumulate {:.2f} fit {:.2f}\n", report.seconds_trace,
              report.seconds_walk, report.seconds_accumulate, report.seconds_fit);
   if (argc > 5 && std::strcmp(argv[5], "plain") == 0) {
-    std::uint64_t events = 0;
-    const double plain = time_plain(job, events);
-    fmt::print("plain_seconds {:.3f}\nplain_nanoseconds_per_event {:.1f}\nbake_over_plain {:.4f}\n", plain,
-               1e9 * plain / static_cast<double>(std::max<std::uint64_t>(events, 1)), median(baked) / plain);
+    const double start = omp_get_wtime();
+    const std::uint64_t events = bench::bake_plainly(job);
+    const double plain = omp_get_wtime() - start;
+    fmt::print(
+        "plain_seconds {:.3f}\nplain_events {}\nplain_nanoseconds_per_event {:.1f}\nbake_over_plain {:.4f}\n",
+        plain, events, 1e9 * plain / static_cast<double>(std::max<std::uint64_t>(events, 1)),
+        median(baked) / plain);
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures what the papers' tables and curves measure and writes ours beside theirs. tests/bench/results
 // prepares its scenes and runs it.
-// usage: bench_results PDSM SCENES RESULTS STEP...    steps: sizes times memory threads soft-shadows tables
+// usage: bench_results PDSM SCENES RESULTS STEP...
+// steps: sizes times memory threads growth counts soft-shadows tables
 #include <fmt/core.h>
 
 #include <exception>
@@ -24,6 +25,8 @@ void run(const Folders& folders, const std::string& step) {
                                                                       {"times", measure_times},
                                                                       {"memory", measure_memory},
                                                                       {"threads", measure_threads},
+                                                                      {"growth", measure_growth},
+                                                                      {"counts", measure_counts},
                                                                       {"soft-shadows", measure_soft_shadows},
                                                                       {"tables", write_tables}};
   const auto found = kSteps.find(step);
@@ -54,6 +57,9 @@ int main(int argc, char** argv) {
   } catch (const pdsm::Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return static_cast<int>(error.failure());
+  } catch (const pdsm::bench::LimitExceeded& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 4;

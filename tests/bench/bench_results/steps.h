@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "pdsm/bake/scene.h"
@@ -23,6 +24,18 @@ void measure_times(const Folders& folders);
 void measure_memory(const Folders& folders);
 /// Table 3.8: time by threads. threads.csv
 void measure_threads(const Folders& folders);
+/// How time grows with samples, texels (maps with them) and triangles; power: time over value, step by step.
+/// growth.csv
+void measure_growth(const Folders& folders);
+
+/// A count is above its limit.
+class LimitExceeded : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+/// What the defaults make of some scenes that is not time: rays, events, pieces, bytes. counts.csv
+/// Throws LimitExceeded when one is above its limit in tests/bench/limits.csv.
+void measure_counts(const Folders& folders);
 /// The curves of Atty et al. 2005, figures 17 to 20. soft-shadow.csv and plots
 void measure_soft_shadows(const Folders& folders);
 

@@ -99,7 +99,9 @@ struct BakeReport {
 
 /// What a bake will take. From a trial with a few samples; times are of this machine.
 struct BakePrediction {
-  std::uint64_t rays = 0, events = 0, memory_bytes = 0;
+  std::uint64_t rays = 0, events = 0;
+  std::uint64_t memory_bytes = 0;  ///< beyond scene and BVH, as BakeOptions::memory limits it
+  std::uint64_t scene_bytes = 0;   ///< bytes resident when the BVH stood, of all that the process has
   double seconds = 0;
   std::uint32_t tile = 0, tiles = 0;
 };
