@@ -17,11 +17,14 @@
 /// by the shift law (walk/ray_path.h). So a vertex is its place G in the map of the light's centre, and k:
 /// one multiplication and one addition an axis move it to any sample's map. 1/z is linear over a projected
 /// triangle, and so is k, which grows with depth.
+///
+/// A triangle, or a part of one, has an id by its place in the scene, and a slot by its place in the map
+/// (CasterOrder). Ids decide between equal depths, so that slots are free to be in any order.
 namespace pdsm {
 
 struct CasterTriangles {
   /// Triangles that are tested against a map together: a multiple of the lanes of any SIMD.
-  static constexpr std::uint32_t kChunk = 256;
+  static constexpr std::uint32_t kChunk = 64;
 
   /// What is left of a triangle when it has been met: `normal` is not of unit length.
   struct Surface {
@@ -38,13 +41,15 @@ struct CasterTriangles {
     float least_k = 0, greatest_k = 0;
   };
 
-  /// Corners' G along each axis, and their k: by corner, then by triangle. The last chunk is filled up with
+  /// Corners' G along each axis, and their k: by corner, then by slot. The last chunk is filled up with
   /// triangles outside of any map.
   std::array<std::array<std::vector<float>, 3>, 2> g;
   std::array<std::vector<float>, 3> k;
-  std::vector<Surface> surfaces;
-  std::vector<Bounds> bounds;  ///< one a chunk
-  std::vector<Large> large;    ///< by slot
+  std::vector<std::uint32_t> ids;  ///< by slot
+  std::vector<Surface> surfaces;   ///< by id
+  std::vector<Bounds> bounds;      ///< one a chunk
+  std::uint32_t front_chunks = 0;  ///< chunks that hold what faces the light, the first ones
+  std::vector<Large> large;        ///< by slot
   double focus_depth = 0;
 
   /// Metres along the ray, of samples in the light's plane.
@@ -54,8 +59,8 @@ struct CasterTriangles {
   [[nodiscard]] bool empty() const { return surfaces.empty(); }
 };
 
-/// Projects the casters of `scene`, in the order of meshes and triangles; what is nearer than
-/// `first_depth` > 0 is cut off. Empty where it does not pay, or floats don't serve: no casters, many more
+/// Projects the casters of `scene`; what is nearer than `first_depth` > 0 is cut off. Ids are in the order of
+/// meshes and triangles. Empty where it does not pay, or floats don't serve: no casters, many more
 /// triangles than texels, or triangles that reach far beside the window.
 [[nodiscard]] CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid,
                                               double first_depth, std::uint32_t threads);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "trace/hidden_chunks.h"
 #include "trace/map_rays.h"
 
 namespace pdsm {
@@ -11,18 +12,6 @@ namespace {
 
 /// Packets.
 constexpr std::int32_t kFetchedAhead = 2;
-
-/// Whether a chunk may touch the image; a texel is added for rounding.
-bool may_touch(const CasterTriangles::Bounds& bounds, const SampleShift& shift, const TexelRect& rect) {
-  const std::int32_t least[2] = {rect.x0, rect.y0}, most[2] = {rect.x1, rect.y1};
-  for (std::size_t a = 0; a < 2; ++a) {
-    const float at_least = shift.scale[a] * bounds.least_k, at_most = shift.scale[a] * bounds.greatest_k;
-    const float low = bounds.least[a] + std::min(at_least, at_most) - shift.shift[a],
-                high = bounds.greatest[a] + std::max(at_least, at_most) - shift.shift[a];
-    if (high < static_cast<float>(least[a]) - 1 || low > static_cast<float>(most[a]) + 1) return false;
-  }
-  return true;
-}
 
 std::span<const std::uint32_t> slots_of_chunk(std::span<const std::uint32_t> slots, std::size_t chunk) {
   if (slots.empty()) return slots;
@@ -37,7 +26,7 @@ void take_hits(const CasterTriangles& casters, const DepthImage& image, std::int
   for (int lane = 0; lane < kMapPacketRays; ++lane) {
     const std::uint64_t key = image.key(x0 + lane % kPacketEdge, y0 + lane / kPacketEdge);
     if (key == DepthImage::kNothing) continue;
-    const CasterTriangles::Surface& surface = casters.surfaces[key_triangle(key)];
+    const CasterTriangles::Surface& surface = casters.surfaces[key_id(key)];
     packet.ray.tfar[lane] = casters.depth_of(key_k(key));
     packet.hit.Ng_x[lane] = surface.normal.x;
     packet.hit.Ng_y[lane] = surface.normal.y;
@@ -51,7 +40,7 @@ void fetch_surfaces(const CasterTriangles& casters, const DepthImage& image, std
                     std::int32_t y0) {
   for (int n = 0; n < kMapPacketRays; ++n) {
     const std::uint64_t key = image.key(x0 + n % kPacketEdge, y0 + n / kPacketEdge);
-    if (key != DepthImage::kNothing) __builtin_prefetch(&casters.surfaces[key_triangle(key)]);
+    if (key != DepthImage::kNothing) __builtin_prefetch(&casters.surfaces[key_id(key)]);
   }
 }
 
@@ -64,6 +53,18 @@ bool is_empty(const DepthImage& image, std::int32_t x0, std::int32_t y0) {
 
 }  // namespace
 
+void enter_casters(const CasterTriangles& casters, const SampleShift& shift,
+                   std::span<const std::uint32_t> left_out, const PacketMask& mask, DepthImage& image) {
+  HiddenChunks hidden;
+  hidden.reset(image, mask);
+  for (std::uint32_t chunk = 0; chunk < casters.bounds.size(); ++chunk) {
+    const CasterTriangles::Bounds& bounds = casters.bounds[chunk];
+    const bool enters =
+        chunk < casters.front_chunks ? hidden.is_wanted(bounds, shift) : hidden.may_be_seen(bounds, shift);
+    if (enters) enter_chunk(casters, chunk, shift, slots_of_chunk(left_out, chunk), image);
+  }
+}
+
 std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles& casters, const MapGrid& grid,
                                 const LightSample& sample, const MapBias& bias,
                                 std::span<const std::uint32_t> left_out, const PacketMask& mask,
@@ -75,10 +76,7 @@ std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles&
   }
   const TexelRect& rect = map.rect();
   image.reset(rect);
-  for (std::size_t chunk = 0; chunk < casters.bounds.size(); ++chunk) {
-    if (may_touch(casters.bounds[chunk], shift, rect))
-      enter_chunk(casters, static_cast<std::uint32_t>(chunk), shift, slots_of_chunk(left_out, chunk), image);
-  }
+  enter_casters(casters, shift, left_out, mask, image);
   const MapRays rays(grid, sample);
   const SurfaceBias surface_bias(scene, grid, sample, bias);
   float nothing[kMapPacketRays];

@@ -10,6 +10,11 @@
 
 namespace pdsm {
 
+/// Enters all casters at the packets of `image` that `mask` wants, but for slots `left_out`, in order. What
+/// the other packets hold is of no meaning.
+void enter_casters(const CasterTriangles& casters, const SampleShift& shift,
+                   std::span<const std::uint32_t> left_out, const PacketMask& mask, DepthImage& image);
+
 /// As trace_sample_map(), for a sample in the light's plane, by projecting `casters` instead of tracing rays:
 /// what is nearest at each texel's centre. Slots `left_out`, in order, count as not there. `scene` is
 /// asked by the slope limit alone. `image` is room to work in. Depths are those of the triangles' planes

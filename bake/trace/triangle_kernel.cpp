@@ -63,8 +63,8 @@ HWY_INLINE Coverage cover(const Corners& t, Float px, Float py) {
   return {covered, hn::Min(hn::Max(k, low), high)};
 }
 
-HWY_INLINE void enter(std::uint64_t& key, std::int32_t order, std::uint32_t triangle) {
-  const std::uint64_t mine = (std::uint64_t{static_cast<std::uint32_t>(order)} << 32) | triangle;
+HWY_INLINE void enter(std::uint64_t& key, std::int32_t order, std::uint32_t id) {
+  const std::uint64_t mine = (std::uint64_t{static_cast<std::uint32_t>(order)} << 32) | id;
   key = std::min(key, mine);
 }
 
@@ -74,7 +74,7 @@ struct Extent {
 };
 
 /// Enters one triangle, row by row.
-void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std::uint32_t triangle,
+void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std::uint32_t id,
                  DepthImage& image) {
   const FloatTag d;
   alignas(64) float x[9][kVectorLanes];
@@ -98,14 +98,14 @@ void enter_large(const Corners& t, const Extent& extent, std::uint32_t lane, std
       hn::Store(order_bits(c.k), IntTag(), order);
       for (; bits != 0; bits &= bits - 1) {
         const int n = std::countr_zero(bits);
-        enter(row[at + n], order[n], triangle);
+        enter(row[at + n], order[n], id);
       }
     }
   }
 }
 
 /// Enters triangles at one texel each.
-HWY_INLINE void enter_at(const Corners& t, Float x, Float y, std::uint32_t small, std::uint32_t first,
+HWY_INLINE void enter_at(const Corners& t, Float x, Float y, std::uint32_t small, const std::uint32_t* ids,
                          DepthImage& image) {
   const Coverage c = cover(t, x, y);
   std::uint32_t bits = mask_bits(c.covered) & small;
@@ -118,7 +118,7 @@ HWY_INLINE void enter_at(const Corners& t, Float x, Float y, std::uint32_t small
   hn::Store(order_bits(c.k), d, order);
   for (; bits != 0; bits &= bits - 1) {
     const auto n = static_cast<std::uint32_t>(std::countr_zero(bits));
-    enter(image.keys[static_cast<std::size_t>(texel[n])], order[n], first + n);
+    enter(image.keys[static_cast<std::size_t>(texel[n])], order[n], ids[n]);
   }
 }
 
@@ -128,8 +128,8 @@ struct Bounds {
 };
 
 /// Enters the triangles of lanes `small`, texel by texel of their bounds, all lanes together.
-HWY_INLINE void enter_small(const Corners& t, const Bounds& bounds, std::uint32_t small, std::uint32_t first,
-                            DepthImage& image) {
+HWY_INLINE void enter_small(const Corners& t, const Bounds& bounds, std::uint32_t small,
+                            const std::uint32_t* ids, DepthImage& image) {
   const Float one = hn::Set(FloatTag(), 1.0F);
   Float y = bounds.y0;
   for (int row = 0; row < kSmallTexels; ++row, y = hn::Add(y, one)) {
@@ -139,7 +139,7 @@ HWY_INLINE void enter_small(const Corners& t, const Bounds& bounds, std::uint32_
     for (int column = 0; column < kSmallTexels; ++column, x = hn::Add(x, one)) {
       const std::uint32_t here = in_row & mask_bits(hn::Le(x, bounds.x1));
       if (here == 0) break;
-      enter_at(t, x, y, here, first, image);
+      enter_at(t, x, y, here, ids, image);
     }
   }
 }
@@ -176,10 +176,11 @@ void enter_triangles(const CasterTriangles& casters, std::uint32_t chunk, const 
       if (slot - first < kVectorLanes) bits &= ~(1u << (slot - first));
     if (bits == 0) continue;
     const Corners corners{x0, x1, x2, y0, y1, y2, k0, k1, k2};
+    const std::uint32_t* const ids = casters.ids.data() + first;
     const Float reach = hn::Set(d, kSmallTexels - 1);
     const std::uint32_t small = bits & mask_bits(hn::And(hn::Le(hn::Sub(last_x, first_x), reach),
                                                          hn::Le(hn::Sub(last_y, first_y), reach)));
-    if (small != 0) enter_small(corners, {first_x, last_x, first_y, last_y}, small, first, image);
+    if (small != 0) enter_small(corners, {first_x, last_x, first_y, last_y}, small, ids, image);
     if (small == bits) continue;
     Extent extent;
     hn::Store(first_x, d, extent.x0);
@@ -188,7 +189,7 @@ void enter_triangles(const CasterTriangles& casters, std::uint32_t chunk, const 
     hn::Store(last_y, d, extent.y1);
     for (std::uint32_t rest = bits & ~small; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-      enter_large(corners, extent, lane, first + lane, image);
+      enter_large(corners, extent, lane, ids[lane], image);
     }
   }
 }
@@ -200,6 +201,11 @@ HWY_AFTER_NAMESPACE();
 namespace pdsm {
 
 HWY_EXPORT(enter_triangles);
+
+std::uint32_t depth_order(float k) {
+  const auto bits = std::bit_cast<std::uint32_t>(k);
+  return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
+}
 
 float key_k(std::uint64_t key) {
   const auto order = static_cast<std::uint32_t>(key >> 32);

@@ -13,7 +13,7 @@
 namespace pdsm {
 
 /// What is nearest at each texel of one sample's map: the greater half of a key orders by depth, the lower
-/// is the triangle. So the least key wins, whatever the order.
+/// is the triangle's id. So the least key wins, whatever the order.
 struct DepthImage {
   static constexpr std::uint64_t kNothing = std::numeric_limits<std::uint64_t>::max();
 
@@ -36,9 +36,11 @@ struct DepthImage {
   }
 };
 
-/// k of a key (CasterTriangles).
+/// The greater half of a key at depth k (CasterTriangles): grows with k, which is not NaN, and is not 0.
+[[nodiscard]] std::uint32_t depth_order(float k);
+/// k of a key.
 [[nodiscard]] float key_k(std::uint64_t key);
-[[nodiscard]] inline std::uint32_t key_triangle(std::uint64_t key) {
+[[nodiscard]] inline std::uint32_t key_id(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "support/random.h"
 #include "trace/map_rays.h"
@@ -147,8 +146,10 @@ TEST(RasterMap, PassesOverWhatIsLeftOut) {
   LightSpaceScene far_alone, both;
   far_alone.meshes.push_back(make_sheet(random, 20, 5, 1));
   both.meshes = {make_sheet(random, 3, 3, 1), far_alone.meshes[0]};
-  std::vector<std::uint32_t> near(both.meshes[0].triangles.size());
-  std::iota(near.begin(), near.end(), 0u);
+  const CasterTriangles casters = project_casters(both, make_grid(), kEmitterShare * kNear, 1);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t slot = 0; slot < casters.surfaces.size(); ++slot)
+    if (casters.surfaces[casters.ids[slot]].mesh == 0) near.push_back(slot);
   for (int n = 0; n < 10; ++n) {
     const LightSample sample = make_sample(random, false);
     const Maps one = make_maps(far_alone, sample), two = make_maps(both, sample, near);
