@@ -120,7 +120,8 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   seconds_bvh = omp_get_wtime() - start;
   if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
   if (has_shadows() && shift_law())
-    casters = project_casters(light_space, grid, first_caster_depth(grid, samples.front()), options.threads);
+    casters = project_casters(light_space, grid, bound_samples(samples),
+                              first_caster_depth(grid, samples.front()), options.threads);
   resident_after_bvh = resident_bytes();
 }
 

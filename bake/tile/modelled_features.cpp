@@ -52,7 +52,7 @@ void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList
               "no caster lies between light and window", counted(samples, "shadow maps"));
   if (casts)
     list.either(job.casters.empty(), "tracing of shadow maps",
-                "light samples lie out of the light's plane, or triangles are many or far beside the window",
+                "light samples lie out of the light's plane, or triangles are many or close to the light",
                 "triangles are projected into them", counted(samples, "traced maps"));
   if (casts && job.shift_law())
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",

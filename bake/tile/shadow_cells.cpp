@@ -213,18 +213,6 @@ class CellMarker {
 
 }  // namespace
 
-LightBounds bound_samples(std::span<const LightSample> samples) {
-  LightBounds bounds{samples[0].position[0], samples[0].position[1], samples[0].position[0],
-                     samples[0].position[1]};
-  for (const LightSample& sample : samples) {
-    for (std::size_t a = 0; a < 2; ++a) {
-      bounds.min[a] = std::min(bounds.min[a], sample.position[a]);
-      bounds.max[a] = std::max(bounds.max[a], sample.position[a]);
-    }
-  }
-  return bounds;
-}
-
 TexelRect ShadowCells::cell_rect(std::int32_t x, std::int32_t y) const {
   const std::int32_t x0 = tile.x0 + x * kCellSize, y0 = tile.y0 + y * kCellSize;
   return {x0, y0, std::min(x0 + kCellSize, tile.x1), std::min(y0 + kCellSize, tile.y1)};

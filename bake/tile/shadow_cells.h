@@ -8,6 +8,7 @@
 
 #include "pdsm/format/penumbra_map.h"
 #include "trace/caster_triangles.h"
+#include "trace/light_bounds.h"
 #include "trace/light_space.h"
 #include "trace/sample_map.h"
 #include "walk/map_grid.h"
@@ -24,12 +25,6 @@ namespace pdsm {
 
 /// Edge of a cell in texels: a divisor of kBlockSize.
 inline constexpr std::int32_t kCellSize = 16;
-
-/// Bounds of the light samples in the light's plane.
-struct LightBounds {
-  std::array<double, 2> min{}, max{};
-};
-[[nodiscard]] LightBounds bound_samples(std::span<const LightSample> samples);
 
 /// The cells of a tile, row by row; 1 where a caster may darken a ray.
 struct ShadowCells {

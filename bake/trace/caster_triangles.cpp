@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "trace/caster_order.h"
+#include "trace/caster_volume.h"
 
 namespace pdsm {
 namespace {
@@ -15,6 +16,8 @@ constexpr double kMostPerTexel = 32;
 /// Texels beside the map's lower corner. An edge function's rounding moves an edge by less than 2^-24 times
 /// four such lengths: 1/128 of a texel, in the worst case.
 constexpr float kFarthest = 0x1p15F;
+/// The same in any sample's map: 1/16 of a texel, for what is so close to the light that it hides half of it.
+constexpr float kFarthestMoved = 0x1p18F;
 /// Where the triangles lie that only fill a chunk up.
 constexpr float kNowhere = -0x1p20F;
 
@@ -29,13 +32,17 @@ struct Part {
 struct Run {
   std::vector<Part> parts;
   std::uint32_t first_id = 0;
+  bool is_near = true;  ///< so that floats serve
 };
 
 class Projector {
  public:
-  Projector(const LightSpaceScene& scene, const MapGrid& grid, double first_depth, std::uint32_t threads)
-      : scene_(scene), grid_(grid), order_(grid), first_depth_(first_depth), runs_(threads) {
+  Projector(const LightSpaceScene& scene, const MapGrid& grid, const LightBounds& light,
+            const CasterVolume& volume, std::uint32_t threads)
+      : scene_(scene), grid_(grid), volume_(volume), order_(grid), runs_(threads) {
     result_.focus_depth = grid.focus_depth;
+    for (std::size_t a = 0; a < 2; ++a)
+      reach_[a] = static_cast<float>(std::max(-light.min[a], light.max[a]) / grid.pitch[a]);
   }
 
   CasterTriangles run(std::size_t triangles) {
@@ -43,6 +50,7 @@ class Projector {
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (std::size_t n = 0; n < runs_.size(); ++n)
       project_run(runs_[n], triangles * n / runs_.size(), triangles * (n + 1) / runs_.size());
+    if (!std::ranges::all_of(runs_, &Run::is_near)) return {};
     resize(number_parts());
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (std::size_t n = 0; n < runs_.size(); ++n) describe(runs_[n]);
@@ -52,48 +60,37 @@ class Projector {
     const auto front = std::ranges::partition_point(keys_, CasterOrder::is_front) - keys_.begin();
     result_.front_chunks = chunks_of(static_cast<std::size_t>(front));
     list_large();
-    return is_near() ? std::move(result_) : CasterTriangles{};
+    return std::move(result_);
   }
 
  private:
   /// Projects the casting triangles from `begin` on, before `end`, counted through all meshes.
   void project_run(Run& run, std::size_t begin, std::size_t end) const {
-    run.parts.reserve(end - begin);
     std::size_t first = 0;
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
       const LightSpaceMesh& mesh = scene_.meshes[m];
       if (!mesh.casts) continue;
       const std::size_t last = first + mesh.triangles.size();
       for (std::size_t t = std::max(begin, first); t < std::min(end, last); ++t)
-        add_parts(mesh, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t - first), run.parts);
+        add_parts(mesh, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t - first), run);
       first = last;
     }
   }
 
-  /// What is cut off leaves no part, a triangle that loses one corner two.
+  /// What misses all maps leaves no part, a triangle that loses one corner two.
   void add_parts(const LightSpaceMesh& mesh, std::uint32_t mesh_index, std::uint32_t triangle,
-                 std::vector<Part>& parts) const {
+                 Run& run) const {
     const glm::uvec3& t = mesh.triangles[triangle];
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
     const CasterTriangles::Surface surface{glm::cross(b - a, c - a), mesh_index};
-    const glm::dvec3 p[3] = {a, b, c};
-    glm::dvec3 kept[4];
-    int count = 0;
-    for (int n = 0; n < 3; ++n) {
-      const glm::dvec3 &from = p[n], &to = p[(n + 1) % 3];
-      if (is_behind(from)) kept[count++] = from;
-      if (is_behind(from) != is_behind(to)) kept[count++] = cut(from, to);
+    const CasterPolygon kept = volume_.clip({a, b, c});
+    for (std::size_t n = 2; n < static_cast<std::size_t>(kept.count); ++n) {
+      Part& part = run.parts.emplace_back(Part{{}, surface, triangle});
+      project(kept.corners[0], 0, part.projected);
+      project(kept.corners[n - 1], 1, part.projected);
+      project(kept.corners[n], 2, part.projected);
+      run.is_near = run.is_near && is_near(part.projected);
     }
-    for (int n = 2; n < count; ++n) {
-      Part& part = parts.emplace_back(Part{{}, surface, triangle});
-      project(kept[0], 0, part.projected);
-      project(kept[n - 1], 1, part.projected);
-      project(kept[n], 2, part.projected);
-    }
-  }
-
-  [[nodiscard]] bool is_behind(const glm::dvec3& p) const {
-    return p.z >= first_depth_;
   }
 
   void project(const glm::dvec3& p, std::size_t corner, ProjectedTriangle& result) const {
@@ -103,12 +100,15 @@ class Projector {
     result.k[corner] = static_cast<float>(1 / grid_.focus_depth - 1 / p.z);
   }
 
-  /// Where an edge meets the first depth: the same for both triangles that share it.
-  [[nodiscard]] glm::dvec3 cut(glm::dvec3 a, glm::dvec3 b) const {
-    if (b.z < a.z) std::swap(a, b);
-    glm::dvec3 p = a + (b - a) * ((first_depth_ - a.z) / (b.z - a.z));
-    p.z = first_depth_;
-    return p;
+  /// Whether floats serve, in any sample's map.
+  [[nodiscard]] bool is_near(const ProjectedTriangle& triangle) const {
+    for (std::size_t a = 0; a < 2; ++a) {
+      for (std::size_t n = 0; n < 3; ++n) {
+        const float centre = std::abs(triangle.g[a][n]), moved = reach_[a] * std::abs(triangle.k[n]);
+        if (!(centre <= kFarthest && moved <= kFarthestMoved)) return false;
+      }
+    }
+    return true;
   }
 
   /// Gives ids to all parts, and tells how many there are.
@@ -186,33 +186,45 @@ class Projector {
     }
   }
 
-  /// Whether floats serve.
-  [[nodiscard]] bool is_near() const {
-    return std::ranges::all_of(result_.bounds, [](const CasterTriangles::Bounds& bounds) {
-      return bounds.least[0] >= -kFarthest && bounds.least[1] >= -kFarthest &&
-             bounds.greatest[0] <= kFarthest && bounds.greatest[1] <= kFarthest;
-    });
-  }
-
   const LightSpaceScene& scene_;
   const MapGrid& grid_;
+  const CasterVolume& volume_;
   const CasterOrder order_;
-  double first_depth_;
+  std::array<float, 2> reach_{};  // greatest |s| / pitch
   std::vector<Run> runs_;
   std::vector<std::uint64_t> keys_;  // CasterOrder
   CasterTriangles result_;
 };
 
-}  // namespace
-
-CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid, double first_depth,
-                                std::uint32_t threads) {
+std::size_t count_casters(const LightSpaceScene& scene) {
   std::size_t triangles = 0;
   for (const LightSpaceMesh& mesh : scene.meshes) triangles += mesh.casts ? mesh.triangles.size() : 0;
-  double texels = 1;
-  for (std::size_t a = 0; a < 2; ++a) texels *= grid.texels[a] * grid.ratio[a].maps_per_texel();
-  if (triangles == 0 || static_cast<double>(triangles) > kMostPerTexel * texels) return {};
-  return Projector(scene, grid, first_depth, threads).run(triangles);
+  return triangles;
+}
+
+/// Triangles that some map may hold.
+std::size_t count_within(const LightSpaceScene& scene, const CasterVolume& volume) {
+  std::size_t triangles = 0;
+  for (const LightSpaceMesh& mesh : scene.meshes) {
+    if (!mesh.casts) continue;
+    for (const glm::uvec3& t : mesh.triangles)
+      triangles +=
+          volume.clip({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]}).count > 0 ? 1 : 0;
+  }
+  return triangles;
+}
+
+}  // namespace
+
+CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid, const LightBounds& light,
+                                double first_depth, std::uint32_t threads) {
+  const CasterVolume volume(grid, light, first_depth);
+  double most = kMostPerTexel;
+  for (std::size_t a = 0; a < 2; ++a) most *= grid.texels[a] * grid.ratio[a].maps_per_texel();
+  const std::size_t triangles = count_casters(scene);
+  if (static_cast<double>(triangles) > most && static_cast<double>(count_within(scene, volume)) > most)
+    return {};
+  return Projector(scene, grid, light, volume, threads).run(triangles);
 }
 
 }  // namespace pdsm

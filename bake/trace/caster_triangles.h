@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "trace/light_bounds.h"
 #include "trace/light_space.h"
 #include "walk/map_grid.h"
 
@@ -59,10 +60,12 @@ struct CasterTriangles {
   [[nodiscard]] bool empty() const { return surfaces.empty(); }
 };
 
-/// Projects the casters of `scene`; what is nearer than `first_depth` > 0 is cut off. Ids are in the order of
-/// meshes and triangles. Empty where it does not pay, or floats don't serve: no casters, many more
-/// triangles than texels, or triangles that reach far beside the window.
+/// Projects the casters of `scene` that some sample's map may hold (CasterVolume); what is nearer than
+/// `first_depth` > 0 is cut off. Ids are in the order of meshes and triangles. Empty where it does not pay,
+/// or floats don't serve: no casters, many more triangles than texels, or triangles so close to the light
+/// that samples see them far apart. Those that no map holds decide nothing.
 [[nodiscard]] CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid,
-                                              double first_depth, std::uint32_t threads);
+                                              const LightBounds& light, double first_depth,
+                                              std::uint32_t threads);
 
 }  // namespace pdsm

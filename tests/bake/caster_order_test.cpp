@@ -19,6 +19,7 @@ using test::Random;
 
 constexpr std::int32_t kTexels = 96;
 constexpr double kNear = 2, kFar = 6;
+constexpr LightBounds kLight{{-0.5, -0.5}, {0.5, 0.5}};
 
 MapGrid make_grid() {
   View view;
@@ -30,7 +31,7 @@ MapGrid make_grid() {
 }
 
 CasterTriangles project(const LightSpaceScene& scene, std::uint32_t threads) {
-  return project_casters(scene, make_grid(), kEmitterShare * kNear, threads);
+  return project_casters(scene, make_grid(), kLight, kEmitterShare * kNear, threads);
 }
 
 /// Triangles of any winding, `size` of the window wide.

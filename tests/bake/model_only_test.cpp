@@ -75,16 +75,24 @@ TEST(ModelOnly, GentleSlopesAreLimitedWhereReceiversLieCloseBehind) {
   EXPECT_EQ(feature(far, name).saved, "9 maps of second rays");
 }
 
-TEST(ModelOnly, MapsAreTracedWhereTrianglesReachFarBesideTheWindow) {
+TEST(ModelOnly, MapsAreTracedWhereCastersReachTheLight) {
   const BakeOptions options = small_options(40, 40, 9);
   const char* name = "tracing of shadow maps";
+  const auto with_wall = [&](double x) {
+    Scene scene = plate_over_floor();
+    add(scene, quad_mesh({x, -1, -1}, {x, 1, -1}, {x, 1, 7}, {x, -1, 7}));
+    return BakedFunctions(scene, key_light(), options);
+  };
   const BakedFunctions projected(plate_over_floor(), key_light(), options);
   EXPECT_FALSE(feature(projected, name).modelled);
   EXPECT_EQ(feature(projected, name).saved, "9 traced maps");
-  // A wall that passes the light: its edge at the emitter is seen under a slope of 1e4.
-  Scene scene = plate_over_floor();
-  add(scene, quad_mesh({2, -1, -1}, {2, 1, -1}, {2, 1, 7}, {2, -1, 7}));
-  EXPECT_TRUE(feature({scene, key_light(), options}, name).modelled);
+  // A wall that passes the light: its edge at the emitter is seen under a slope of 1e4, but in no map.
+  EXPECT_FALSE(feature(with_wall(2), name).modelled);
+  // One that goes through the light.
+  EXPECT_TRUE(feature(with_wall(0.1), name).modelled);
+  Scene wide = plate_over_floor();
+  add(wide, Plate{-1e6, -1e6, 1e6, 1e6, 9});
+  EXPECT_FALSE(feature({wide, key_light(), options}, name).modelled);
 }
 
 TEST(ModelOnly, RaysThatNothingCanDarkenAreNotTraced) {

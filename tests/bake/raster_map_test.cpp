@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "support/random.h"
 #include "trace/map_rays.h"
@@ -17,6 +18,7 @@ using test::Random;
 
 constexpr std::int32_t kTexels = 48;
 constexpr double kNear = 2, kFar = 6;
+constexpr LightBounds kLight{{-0.5, -0.5}, {0.5, 0.5}};
 
 MapGrid make_grid() {
   View view;
@@ -74,7 +76,7 @@ Maps make_maps(const LightSpaceScene& scene, const LightSample& sample,
                std::span<const std::uint32_t> left_out = {}) {
   const MapGrid grid = make_grid();
   const EmbreeScene embree(scene, choose_isa(""), 1);
-  const CasterTriangles casters = project_casters(scene, grid, first_caster_depth(grid, sample), 2);
+  const CasterTriangles casters = project_casters(scene, grid, kLight, first_caster_depth(grid, sample), 2);
   EXPECT_FALSE(casters.empty());
   Maps maps;
   const TexelRect rect{-4, -8, kTexels + 4, kTexels};
@@ -141,12 +143,95 @@ TEST(RasterMap, CutsWhatReachesBehindTheLight) {
   }
 }
 
+/// A fan of triangles around a point in the map on the plane 0.2 x + z = 5, whose rim is farther than floats
+/// hold: cut off, with no gap between neighbours.
+LightSpaceMesh make_wide_fan(Random& random, int count) {
+  LightSpaceMesh mesh;
+  const auto put = [&](double x, double y) { mesh.positions.emplace_back(x, y, 5 - 0.2 * x); };
+  mesh.positions.reserve(static_cast<std::size_t>(count) + 2);
+  put(random.uniform(-1, 1), random.uniform(-1, 1));
+  for (int n = 0; n < count; ++n) {
+    const double angle = 2 * std::numbers::pi * (n + random.uniform(0, 0.4)) / count,
+                 radius = std::exp(random.uniform(std::log(1e2), std::log(1e6)));
+    put(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  for (int n = 0; n < count; ++n)
+    mesh.triangles.emplace_back(0u, static_cast<std::uint32_t>(1 + n),
+                                static_cast<std::uint32_t>(1 + (n + 1) % count));
+  return mesh;
+}
+
+TEST(RasterMap, CutsWhatReachesFarBeside) {
+  Random random(85);
+  const MapGrid grid = make_grid();
+  for (int n = 0; n < 60; ++n) {
+    LightSpaceScene scene;
+    scene.meshes.push_back(make_wide_fan(random, random.pick({3, 5, 24, 400})));
+    const LightSample sample = make_sample(random, n % 4 == 0);
+    const Maps maps = make_maps(scene, sample);
+    const TexelRect& rect = maps.projected.rect();
+    for (std::int32_t y = rect.y0; y < rect.y1; ++y) {
+      for (std::int32_t x = rect.x0; x < rect.x1; ++x) {
+        const double u = grid.origin[0] + (x + 0.5 + sample.jitter[0]) * grid.pitch[0];
+        // The plane along s_x + (u F - s_x) z / F.
+        const double s = sample.position[0], rate = u - s / grid.focus_depth;
+        const double depth = (5 - 0.2 * s) / (1 + 0.2 * rate);
+        ASSERT_NEAR(maps.projected.at(x, y), depth, 1e-3) << x << ", " << y << " of scene " << n;
+      }
+    }
+  }
+}
+
+/// What a caster beside all maps, or behind the light, leaves of the others is all of them.
+TEST(RasterMap, KeepsOnlyWhatSomeMapHolds) {
+  Random random(86);
+  LightSpaceScene alone;
+  alone.meshes.push_back(make_sheet(random, 30, 4, 1));
+  LightSpaceScene both = alone;
+  LightSpaceMesh& beside = both.meshes.emplace_back();
+  beside.positions.reserve(16);
+  beside.positions = {{9, -9, 4},   {1e6F, -9, 4},   {9, 9, 4},       // far beside
+                      {3, -9, -3},  {3, 9, -3},      {9, 0, 5},       // a wall through the light's plane
+                      {-1, -1, -1}, {1, -1, -1e-3F}, {0, 1, -0.5F}};  // behind the light
+  beside.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const auto project = [](const LightSpaceScene& scene) {
+    return project_casters(scene, make_grid(), kLight, kEmitterShare * kNear, 2);
+  };
+  const CasterTriangles one = project(alone), two = project(both);
+  EXPECT_FALSE(one.empty());
+  EXPECT_EQ(one.g, two.g);
+  EXPECT_EQ(one.k, two.k);
+  EXPECT_EQ(one.ids, two.ids);
+}
+
+/// Triangles that only some samples see, at the borders of their maps, are kept.
+TEST(RasterMap, KeepsWhatAnySampleSees) {
+  Random random(87);
+  const MapGrid grid = make_grid();
+  for (int n = 0; n < 400; ++n) {
+    const double z = random.pick({1e-2, 0.3, 1.5, 2.0, 3.0, 5.9, 50.0});
+    LightSample sample = make_sample(random, false);
+    for (std::size_t a = 0; a < 2; ++a) sample.position[a] = random.pick({-0.5, 0.5});
+    // A point on the border of what the sample's rays reach between near and far.
+    const double reach = 0.5 * (1 / kNear - 1 / kFar) / 2, u = random.pick({-1, 1}) * (0.5 + reach),
+                 v = random.uniform(-0.5, 0.5), way = z / grid.focus_depth;
+    const double x = sample.position[0] * (1 - way) + u * z, y = sample.position[1] * (1 - way) + v * z;
+    const double size = 0.01 * z / grid.focus_depth;
+    LightSpaceScene scene;
+    scene.meshes.emplace_back().positions = {
+        {x - size, y - size, z}, {x + size, y - size, z}, {x, y + size, z}};
+    scene.meshes[0].triangles = {{0, 1, 2}};
+    const CasterTriangles casters = project_casters(scene, grid, kLight, kEmitterShare * kNear, 1);
+    EXPECT_EQ(casters.surfaces.size(), 1u) << "at depth " << z;
+  }
+}
+
 TEST(RasterMap, PassesOverWhatIsLeftOut) {
   Random random(84);
   LightSpaceScene far_alone, both;
   far_alone.meshes.push_back(make_sheet(random, 20, 5, 1));
   both.meshes = {make_sheet(random, 3, 3, 1), far_alone.meshes[0]};
-  const CasterTriangles casters = project_casters(both, make_grid(), kEmitterShare * kNear, 1);
+  const CasterTriangles casters = project_casters(both, make_grid(), kLight, kEmitterShare * kNear, 1);
   std::vector<std::uint32_t> near;
   for (std::uint32_t slot = 0; slot < casters.surfaces.size(); ++slot)
     if (casters.surfaces[casters.ids[slot]].mesh == 0) near.push_back(slot);

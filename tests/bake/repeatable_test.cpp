@@ -123,6 +123,13 @@ TEST_P(Repeatable, ForAnyOrderOfTriangles) {
   }
 }
 
+/// What is far beside all maps does not decide how these are made.
+TEST_P(Repeatable, WhateverLiesFarBeside) {
+  Scene scene = mixed_scene();
+  add(scene, Plate{3000, -1, 1e6, 1, 4});
+  expect_same_bytes(first_, {scene, key_light(), options_for(GetParam())});
+}
+
 TEST_P(Repeatable, ASeedSelectsItsOwnSamples) {
   BakeOptions options = options_for(GetParam());
   options.seed = 7;
