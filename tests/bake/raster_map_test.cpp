@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "support/random.h"
+#include "trace/caster_volume.h"
 #include "trace/map_rays.h"
 
 namespace pdsm {
@@ -180,6 +182,33 @@ TEST(RasterMap, CutsWhatReachesFarBeside) {
       }
     }
   }
+}
+
+/// Neighbours see an edge from its two ends, and have to cut it at one point.
+TEST(RasterMap, CutsAnEdgeTheSameFromBothEnds) {
+  Random random(88);
+  const CasterVolume volume(make_grid(), kLight, kEmitterShare * kNear);
+  const auto corners_of = [&](const std::array<glm::dvec3, 3>& triangle) {
+    const CasterPolygon polygon = volume.clip(triangle);
+    std::set<std::array<double, 3>> corners;
+    for (int n = 0; n < polygon.count; ++n) {
+      const glm::dvec3& p = polygon.corners[static_cast<std::size_t>(n)];
+      corners.insert({p.x, p.y, p.z});
+    }
+    return corners;
+  };
+  std::size_t most = 0;
+  for (int n = 0; n < 2000; ++n) {
+    std::array<glm::dvec3, 3> p;
+    for (glm::dvec3& corner : p) {
+      const double far = std::exp(random.uniform(0, 12));
+      corner = {far * random.uniform(-1, 1), far * random.uniform(-1, 1), random.uniform(-2, 6)};
+    }
+    const auto corners = corners_of({p[0], p[1], p[2]});
+    EXPECT_EQ(corners, corners_of({p[1], p[0], p[2]}));
+    most = std::max(most, corners.size());
+  }
+  EXPECT_GT(most, 5u);
 }
 
 /// What a caster beside all maps, or behind the light, leaves of the others is all of them.
