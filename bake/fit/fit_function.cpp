@@ -105,15 +105,15 @@ class FunctionFit {
       const bool passes_both = lines_.passes(border, low, high);
       if (!passes_both && !lines_.passes(border, here.low, here.high)) {
         const std::int64_t end = lines_.reach(last, border, here.low, here.high);
-        if (end > last) lines_.add(end, here.low, here.high);
+        if (end > last) lines_.add(end, here.low, here.high, {});
         return end;
       }
       ++run_;
       if (!passes_both || run_ + 1 == tube_.size()) {
-        lines_.add(border, here.low, here.high);
+        lines_.add(border, here.low, here.high, {});
         return border;
       }
-      lines_.add(border, low, high);
+      lines_.add(border, low, high, {here.low != next.low, here.high != next.high});
       last = border;
     }
   }

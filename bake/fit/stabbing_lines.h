@@ -21,6 +21,10 @@ class StabbingLines {
     }
   };
 
+  struct Ends {
+    bool low = false, high = false;
+  };
+
   /// Starts anew with one window.
   void start(std::int64_t x, std::int64_t low, std::int64_t high) {
     windows_ = 1;
@@ -39,7 +43,10 @@ class StabbingLines {
   /// right: among all pairs i < j the slope is at most (high_j - low_i) / (x_j - x_i). When a new high end
   /// lies below it, the new steepest line goes through that end, tangent to the upper hull of the low ends;
   /// the point of tangency only ever moves right. The shallowest line is its mirror image.
-  void add(std::int64_t x, std::int64_t low, std::int64_t high) {
+  /// `turns`: the ends that matter to windows added later. An end that lies between two of its side of the
+  /// same height, or tighter, does not: lines that pass both pass it, and tangents from behind touch the
+  /// former.
+  void add(std::int64_t x, std::int64_t low, std::int64_t high, Ends turns = {true, true}) {
     if (windows_ == 1 || compare(steepest_, x, high) > 0) {
       // Tangent from the new high end to the upper hull of the low ends: the least slope.
       auto& [points, pivot] = lows_;
@@ -51,8 +58,8 @@ class StabbingLines {
       while (pivot + 1 < points.size() && is_left_turn({x, low}, points[pivot], points[pivot + 1])) ++pivot;
       shallowest_ = {points[pivot].x, points[pivot].y, x, low};
     }
-    extend_lower({x, low});
-    extend_upper({x, high});
+    if (turns.low) extend_lower({x, low});
+    if (turns.high) extend_upper({x, high});
     ++windows_;
   }
 
