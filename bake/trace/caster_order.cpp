@@ -39,10 +39,12 @@ void sort_by_digit(const std::vector<std::uint64_t>& from, int shift, std::vecto
 }  // namespace
 
 bool ProjectedTriangle::is_large() const {
-  return std::ranges::any_of(g, [](const std::array<float, 3>& corners) {
-    const auto [least, greatest] = std::minmax({corners[0], corners[1], corners[2]});
+  const auto is_wide = [](const std::array<float, 3>& at) {
+    const float least = std::min(std::min(at[0], at[1]), at[2]),
+                greatest = std::max(std::max(at[0], at[1]), at[2]);
     return greatest - least >= kLargeTexels;
-  });
+  };
+  return is_wide(g[0]) || is_wide(g[1]);
 }
 
 bool ProjectedTriangle::faces_light() const {

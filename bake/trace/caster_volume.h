@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/glm.hpp>
 
@@ -31,7 +32,15 @@ class CasterVolume {
   /// Casters count from `first_depth` > 0 on.
   CasterVolume(const MapGrid& grid, const LightBounds& light, double first_depth);
 
-  /// What is left of a triangle; none where it misses all maps. A triangle that is not cut keeps its corners.
+  /// Whether a triangle lies within all maps' reach: the quick answer for most.
+  [[nodiscard]] bool holds(const std::array<glm::dvec3, 3>& triangle) const {
+    double least = std::min({triangle[0].z, triangle[1].z, triangle[2].z}) - first_depth_;
+    for (const Side& side : sides_)
+      for (const glm::dvec3& p : triangle) least = std::min(least, side.distance(p));
+    return least >= 0;
+  }
+  /// What is left of a triangle; none where it misses all maps. A triangle that is not cut, or held,
+  /// keeps its corners.
   /// Edges are cut at the same points for both triangles that share them.
   [[nodiscard]] CasterPolygon clip(const std::array<glm::dvec3, 3>& triangle) const;
 
