@@ -53,10 +53,6 @@ struct CasterTriangles {
   std::vector<Large> large;        ///< by slot
   double focus_depth = 0;
 
-  /// Metres along the ray, of samples in the light's plane.
-  [[nodiscard]] float depth_of(float at_k) const {
-    return static_cast<float>(1 / (1 / focus_depth - static_cast<double>(at_k)));
-  }
   [[nodiscard]] bool empty() const { return surfaces.empty(); }
 };
 

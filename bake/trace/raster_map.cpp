@@ -20,14 +20,24 @@ std::span<const std::uint32_t> slots_of_chunk(std::span<const std::uint32_t> slo
   return {begin, std::lower_bound(begin, slots.end(), last)};
 }
 
-/// Turns the rays of a packet into those that have met what the image holds.
+/// Turns the rays of a packet into those that have met what the image holds. Depths are worked out for all
+/// lanes together, and z = 1 / (1/F - k) is the distance along rays of samples in the light's plane.
 void take_hits(const CasterTriangles& casters, const DepthImage& image, std::int32_t x0, std::int32_t y0,
                RTCRayHit16& packet) {
+  const double inverse_focus = 1 / casters.focus_depth;
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  alignas(64) std::uint64_t keys[kMapPacketRays];
+  alignas(64) double depths[kMapPacketRays];
   for (int lane = 0; lane < kMapPacketRays; ++lane) {
-    const std::uint64_t key = image.key(x0 + lane % kPacketEdge, y0 + lane / kPacketEdge);
-    if (key == DepthImage::kNothing) continue;
-    const CasterTriangles::Surface& surface = casters.surfaces[key_id(key)];
-    packet.ray.tfar[lane] = casters.depth_of(key_k(key));
+    keys[lane] = image.key(x0 + lane % kPacketEdge, y0 + lane / kPacketEdge);
+    depths[lane] = inverse_focus - static_cast<double>(key_k(keys[lane]));
+  }
+  for (double& depth : depths) depth = 1 / depth;
+  for (int lane = 0; lane < kMapPacketRays; ++lane)
+    packet.ray.tfar[lane] = keys[lane] == DepthImage::kNothing ? kNone : static_cast<float>(depths[lane]);
+  for (int lane = 0; lane < kMapPacketRays; ++lane) {
+    if (keys[lane] == DepthImage::kNothing) continue;
+    const CasterTriangles::Surface& surface = casters.surfaces[key_id(keys[lane])];
     packet.hit.Ng_x[lane] = surface.normal.x;
     packet.hit.Ng_y[lane] = surface.normal.y;
     packet.hit.Ng_z[lane] = surface.normal.z;

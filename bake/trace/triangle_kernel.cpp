@@ -202,16 +202,6 @@ namespace pdsm {
 
 HWY_EXPORT(enter_triangles);
 
-std::uint32_t depth_order(float k) {
-  const auto bits = std::bit_cast<std::uint32_t>(k);
-  return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
-}
-
-float key_k(std::uint64_t key) {
-  const auto order = static_cast<std::uint32_t>(key >> 32);
-  return std::bit_cast<float>(order ^ (order >> 31 != 0 ? 0x80000000u : 0xffffffffu));
-}
-
 void enter_chunk(const CasterTriangles& casters, std::uint32_t chunk, const SampleShift& shift,
                  std::span<const std::uint32_t> left_out, DepthImage& image) {
   HWY_DYNAMIC_DISPATCH(enter_triangles)(casters, chunk, shift, left_out, image);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -37,9 +38,15 @@ struct DepthImage {
 };
 
 /// The greater half of a key at depth k (CasterTriangles): grows with k, which is not NaN, and is not 0.
-[[nodiscard]] std::uint32_t depth_order(float k);
+[[nodiscard]] inline std::uint32_t depth_order(float k) {
+  const auto bits = std::bit_cast<std::uint32_t>(k);
+  return bits ^ (bits >> 31 != 0 ? 0xffffffffu : 0x80000000u);
+}
 /// k of a key.
-[[nodiscard]] float key_k(std::uint64_t key);
+[[nodiscard]] inline float key_k(std::uint64_t key) {
+  const auto order = static_cast<std::uint32_t>(key >> 32);
+  return std::bit_cast<float>(order ^ (order >> 31 != 0 ? 0x80000000u : 0xffffffffu));
+}
 [[nodiscard]] inline std::uint32_t key_id(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
