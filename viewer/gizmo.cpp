@@ -24,11 +24,11 @@ glm::dvec3 window_point(const View& view, double x, double y, double z) {
 void add_light_gizmo(LineBatch& lines, const Stage& stage, const Light& light, bool on) {
   const glm::vec4& colour = on ? kOn : kOff;
   std::vector<glm::vec3> outline;
-  for (const glm::dvec3& point : light_outline(light)) outline.push_back(stage.local(point));
+  for (const glm::dvec3& point : light_outline(light, stage.focus())) outline.push_back(stage.local(point));
   lines.add_strip(outline, 2.5F, colour);
 
-  const RigidTransform to_world = inverse(light_frame(light));
-  const std::array<double, 2> half = half_extents(light);
+  const RigidTransform to_world = inverse(drawn_frame(light, stage.focus()));
+  const std::array<double, 2> half = is_distant(light) ? std::array{0.0, 0.0} : half_extents(light);
   const double length = std::max(0.8 * std::max(half[0], half[1]), 0.15 * stage.focus().radius);
   const auto local = [&](double x, double y, double z) {
     return stage.local(apply(to_world, length * glm::dvec3(x, y, z)));

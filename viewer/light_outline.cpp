@@ -12,22 +12,40 @@ std::vector<glm::dvec2> outline_of(const RectLight& rect) {
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}, {-x, -y}};
 }
 
-std::vector<glm::dvec2> outline_of(const DiskLight& disk) {
+/// Of a distant light's marker, in radii of the focus: how far it is from there, and its own radius.
+constexpr double kMarkerDistance = 1.5, kMarkerRadius = 0.08;
+
+std::vector<glm::dvec2> circle(double radius) {
   constexpr int kCorners = 48;
   std::vector<glm::dvec2> points;
   for (int i = 0; i <= kCorners; ++i) {
     const double angle = 2 * std::numbers::pi * (i % kCorners) / kCorners;
-    points.emplace_back(disk.radius * std::cos(angle), disk.radius * std::sin(angle));
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
   }
   return points;
 }
 
 }  // namespace
 
-std::vector<glm::dvec3> light_outline(const Light& light) {
-  const RigidTransform to_world = inverse(light_frame(light));
+RigidTransform drawn_frame(const Light& light, const Focus& focus) {
+  Light drawn = light;
+  if (is_distant(light)) {
+    const auto r = light_frame(light).rotation;
+    drawn.position = focus.centre - kMarkerDistance * focus.radius * glm::dvec3(r[6], r[7], r[8]);
+  }
+  return light_frame(drawn);
+}
+
+std::vector<glm::dvec3> light_outline(const Light& light, const Focus& focus) {
+  const RigidTransform to_world = inverse(drawn_frame(light, focus));
+  std::vector<glm::dvec2> in_plane;
+  if (const auto* rect = std::get_if<RectLight>(&light.shape))
+    in_plane = outline_of(*rect);
+  else if (const auto* disk = std::get_if<DiskLight>(&light.shape))
+    in_plane = circle(disk->radius);
+  else
+    in_plane = circle(kMarkerRadius * focus.radius);
   std::vector<glm::dvec3> outline;
-  const auto in_plane = std::visit([](const auto& shape) { return outline_of(shape); }, light.shape);
   for (const glm::dvec2& p : in_plane) outline.push_back(apply(to_world, glm::dvec3(p, 0)));
   return outline;
 }

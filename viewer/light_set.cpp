@@ -24,7 +24,10 @@ LightEntry entry_of(const ShownLight& light, const Stage& stage) {
   entry.colour = glm::vec4(light.radiance, static_cast<float>(light.map));
   entry.direction = glm::vec4(glm::vec3(light.studio.direction), 0.0F);
   std::transform(light.studio.points.begin(), light.studio.points.end(), entry.points.begin(),
-                 [&stage](const glm::dvec3& point) { return glm::vec4(stage.local(point), 1.0F); });
+                 [&](const glm::dvec3& point) {
+                   return light.studio.distant ? glm::vec4(glm::vec3(point), 0.0F)
+                                               : glm::vec4(stage.local(point), 1.0F);
+                 });
   return entry;
 }
 

@@ -18,6 +18,7 @@ double scene_reach(const Scene& scene, const glm::dvec3& origin) {
     }
   }
   for (const Light& light : scene.lights) {
+    if (is_distant(light)) continue;
     const std::array<double, 2> half = half_extents(light);
     reach = std::max(reach, glm::distance(light.position, origin) + half[0] + half[1]);
   }

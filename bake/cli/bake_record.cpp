@@ -24,7 +24,8 @@ Json modelled_json(const BakeReport& report) {
   return list;
 }
 
-/// The light with its frame made explicit: `direction` and `up` are the frame's z and y.
+/// The light with its frame made explicit: `direction` and `up` are the frame's z and y. Where a distant
+/// light's space begins is in the view.
 Json light_json(const Light& light) {
   const RigidTransform frame = light_frame(light);
   const auto& r = frame.rotation;
@@ -33,11 +34,14 @@ Json light_json(const Light& light) {
     json["type"] = "rect";
     json["width"] = rect->width;
     json["height"] = rect->height;
+  } else if (const auto* sun = std::get_if<DistantLight>(&light.shape)) {
+    json["type"] = "distant";
+    json["angle"] = sun->angle;
   } else {
     json["type"] = "disk";
     json["radius"] = std::get<DiskLight>(light.shape).radius;
   }
-  json["position"] = {light.position.x, light.position.y, light.position.z};
+  if (!is_distant(light)) json["position"] = {light.position.x, light.position.y, light.position.z};
   json["direction"] = {r[6], r[7], r[8]};
   json["up"] = {r[3], r[4], r[5]};
   return json;

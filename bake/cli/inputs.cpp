@@ -96,14 +96,16 @@ const Light& named_light(const Scene& scene, const PenumbraMap& map, std::size_t
   return scene.lights[index];
 }
 
-/// Whether two frames differ by no more than what rounding makes of the same numbers.
-bool same_frame(const RigidTransform& a, const RigidTransform& b) {
+/// Whether two frames of `light` differ by no more than what rounding makes of the same numbers. A distant
+/// light's space may begin anywhere.
+bool same_frame(const Light& light, const RigidTransform& a, const RigidTransform& b) {
   constexpr double kRounding = 1e-9;
   const auto near = [](double x, double y) {
     return std::abs(x - y) <= kRounding * std::max({1.0, std::abs(x), std::abs(y)});
   };
   return std::equal(a.rotation.begin(), a.rotation.end(), b.rotation.begin(), near) &&
-         std::equal(a.translation.begin(), a.translation.end(), b.translation.begin(), near);
+         (is_distant(light) ||
+          std::equal(a.translation.begin(), a.translation.end(), b.translation.begin(), near));
 }
 
 }  // namespace
@@ -111,7 +113,7 @@ bool same_frame(const RigidTransform& a, const RigidTransform& b) {
 const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_t index,
                           const std::string& map_name) {
   const Light& light = named_light(scene, map, index, map_name);
-  if (!same_frame(map.views.front().world_to_view, light_frame(light))) {
+  if (!same_frame(light, map.views.front().world_to_view, light_frame(light))) {
     throw Error(Failure::input, map_name + ":light",
                 "was baked for another position or direction of light '" + light.name + "'");
   }

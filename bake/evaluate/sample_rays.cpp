@@ -11,7 +11,8 @@ namespace pdsm {
 namespace {
 
 /// A bake's samples with the reach of their bias: a map texel's pitch is a change of slope on the focus
-/// plane; seen from a sample at s_z, directions change by F / (F - s_z) of that.
+/// plane; seen from a sample at s_z, directions change by F / (F - s_z) of that. A distant light's rays move
+/// by the pitch.
 std::vector<LightPoint> points_of(const BakeJob& job) {
   const MapGrid& grid = job.grid;
   std::vector<LightPoint> points;
@@ -20,7 +21,7 @@ std::vector<LightPoint> points_of(const BakeJob& job) {
     const auto& s = sample.position;
     LightPoint& point = points.emplace_back();
     point.position = {s[0], s[1], s[2]};
-    const double lambda = (grid.focus_depth - s[2]) / grid.focus_depth;
+    const double lambda = grid.perspective() ? (grid.focus_depth - s[2]) / grid.focus_depth : 1;
     for (std::size_t axis = 0; axis < 2; ++axis)
       point.reach[axis] = bias.reach[axis] * grid.pitch[axis] / lambda;
   }
@@ -42,7 +43,8 @@ SampleRayValues trace_sample_rays(const Scene& scene, const Light& light, const 
                         &behind,
                         SurfaceBias::kWayToNext,
                         SurfaceBias::kSameSurface,
-                        SurfaceBias::kLeastGap};
+                        SurfaceBias::kLeastGap,
+                        !job.grid.perspective()};
   SampleRayValues values;
   for (std::vector<double>* of : {&values.at_point, &values.biased, &values.filtered})
     of->resize(points.size());

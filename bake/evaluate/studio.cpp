@@ -27,17 +27,20 @@ glm::vec3 studio_colour(std::size_t index, std::size_t count) {
 
 StudioLight make_studio_light(const Light& light, const Focus& focus, const glm::vec3& colour) {
   const RigidTransform light_to_world = inverse(light_frame(light));
+  const glm::dvec3 origin = apply(light_to_world, glm::dvec3(0));
   StudioLight studio;
-  studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - apply(light_to_world, glm::dvec3(0));
+  studio.distant = is_distant(light);
+  studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
   std::size_t n = 0;
   for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
     for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
-      const std::array<double, 2> p = light_point(light, {u, v});
-      studio.points[n++] = apply(light_to_world, glm::dvec3(p[0], p[1], 0));
+      const glm::dvec3 p = apply(light_to_world, light_point(light, {u, v}));
+      studio.points[n++] = studio.distant ? glm::normalize(origin - p) : p;
     }
   }
   const glm::dvec3& centre = studio.points[studio.points.size() / 2];
-  float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(centre - focus.centre)));
+  const glm::dvec3 to_centre = studio.distant ? centre : centre - focus.centre;
+  float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(to_centre)));
   if (!(reference > 0)) {
     const glm::dvec3 in_front = centre + 2 * focus.radius * studio.direction;
     reference = irradiance(studio, in_front, glm::vec3(-studio.direction));
@@ -49,7 +52,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
 float irradiance(const StudioLight& light, const glm::dvec3& position, const glm::vec3& normal) {
   double sum = 0;
   for (const glm::dvec3& on_light : light.points) {
-    const glm::dvec3 to_light = on_light - position;
+    const glm::dvec3 to_light = light.distant ? on_light : on_light - position;
     const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
     const double at_surface = glm::dot(glm::dvec3(normal), to_light),
                  at_light = -glm::dot(light.direction, to_light);

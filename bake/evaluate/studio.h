@@ -22,9 +22,11 @@ inline constexpr double kStudioFadeBegin = 2.0, kStudioFadeEnd = 6.0;
 
 /// A light by a 3 x 3 grid of points of equal areas.
 struct StudioLight {
-  std::array<glm::dvec3, 9> points{};  ///< world, metres; the centre is points[4]
-  glm::dvec3 direction{0};             ///< unit
-  glm::vec3 colour{1};                 ///< times irradiance(): light that arrives
+  /// World, metres; of a distant light unit vectors towards it. The centre is points[4].
+  std::array<glm::dvec3, 9> points{};
+  bool distant = false;
+  glm::dvec3 direction{0};  ///< unit
+  glm::vec3 colour{1};      ///< times irradiance(): light that arrives
 };
 
 /// Colour of light `index` of `count` at the focus: white ones look dull side by side, and lights seldom
@@ -35,7 +37,8 @@ struct StudioLight {
 /// front of it when it does not shine on the focus.
 [[nodiscard]] StudioLight make_studio_light(const Light& light, const Focus& focus, const glm::vec3& colour);
 
-/// What arrives from the light's points on a surface, both cosines and 1 / distance^2 (metres) included.
+/// What arrives from the light's points on a surface, both cosines and 1 / distance^2 (metres; 1 for a
+/// distant light) included.
 [[nodiscard]] float irradiance(const StudioLight& light, const glm::dvec3& position, const glm::vec3& normal);
 
 [[nodiscard]] glm::vec3 studio_background(const glm::dvec3& direction);

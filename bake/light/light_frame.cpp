@@ -80,6 +80,10 @@ RigidTransform inverse(const RigidTransform& transform) {
 
 std::array<double, 2> half_extents(const Light& light) {
   if (const auto* rect = std::get_if<RectLight>(&light.shape)) return {rect->width / 2, rect->height / 2};
+  if (const auto* sun = std::get_if<DistantLight>(&light.shape)) {
+    const double tangent = std::tan(sun->angle / 2 * (std::numbers::pi / 180));
+    return {tangent, tangent};
+  }
   const double radius = std::get<DiskLight>(light.shape).radius;
   return {radius, radius};
 }

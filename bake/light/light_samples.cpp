@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Point sets on planar lights, and the sub-texel jitter of each sample's map.
+// Point sets on planar lights and of directions to distant ones, and the sub-texel jitter of each sample's
+// map.
 //
 // Fibonacci lattice: Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992.
 // Sunflower: Vogel, A better way to construct the sunflower head, 1979.
@@ -103,6 +104,18 @@ Point2 sample_shape(const DiskLight& light, std::uint32_t i, std::uint32_t count
   return {p[0] * light.radius, p[1] * light.radius};
 }
 
+/// Tangents of directions, uniform over the solid angle of the light's disk. A share k of the disk lies
+/// within the angle t of its centre with sin(t/2)^2 = k sin(angle/4)^2; with k = |p|^2 for points p of the
+/// unit disk, tan t = 2 sin(t/2) cos(t/2) / (1 - 2 sin(t/2)^2) is |p| times what follows.
+Point2 sample_shape(const DistantLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
+                    std::uint64_t seed) {
+  const Point2 p = sample_shape(DiskLight{1}, i, count, points, seed);
+  const double sine = std::sin(light.angle / 4 * (std::numbers::pi / 180));
+  const double squared = (p[0] * p[0] + p[1] * p[1]) * sine * sine;
+  const double scale = 2 * sine * std::sqrt(1 - squared) / (1 - 2 * squared);
+  return {p[0] * scale, p[1] * scale};
+}
+
 /// In [-0.5, 0.5), 0 for the first sample of seed 0.
 float map_jitter(std::uint32_t i, double alpha, std::uint64_t seed, std::uint64_t dimension) {
   const auto jitter = static_cast<float>(fraction(0.5 + i * alpha + seed_shift(seed, dimension)) - 0.5);
@@ -122,7 +135,7 @@ std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t co
             ? Point2{0, 0}
             : std::visit([&](const auto& shape) { return sample_shape(shape, i, count, points, seed); },
                          light.shape);
-    samples[i].position = {p[0], p[1], 0};
+    samples[i].position = {p[0], p[1], is_distant(light) ? 1.0 : 0.0};
     samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4),
                          map_jitter(i, kInversePlasticSquared, seed, 5)};
     samples[i].weight = 1;

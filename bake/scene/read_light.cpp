@@ -22,8 +22,17 @@ constexpr std::uint32_t kMaxSamples = 65536;
 // A wider window spends its texels on grazing light.
 constexpr double kMaxFov = 120;
 
+/// Full angle of a distant light, degrees.
+double read_angle(const JsonFields& fields) {
+  if (!fields.has("angle")) return DistantLight{}.angle;
+  const double angle = fields.number("angle");
+  if (!(angle >= 0 && angle <= kMostDistantAngle))
+    fields.refuse("angle", "must be a number from 0 to 90 (degrees, the full angle)");
+  return angle;
+}
+
 /// The light's shape by its type; throws unless every key belongs to a light of that type.
-std::variant<RectLight, DiskLight> read_shape(const JsonFields& fields) {
+LightShape read_shape(const JsonFields& fields) {
   const std::string type = fields.text("type");
   if (type == "rect") {
     fields.allow_only({"name", "type", "position", "direction", "up", "width", "height", "fov", "window",
@@ -35,10 +44,15 @@ std::variant<RectLight, DiskLight> read_shape(const JsonFields& fields) {
                        "far", "faces", "emission", "resolution", "samples"});
     return DiskLight{fields.not_negative("radius")};
   }
-  if (type == "sphere" || type == "distant" || type == "mesh") {
+  if (type == "distant") {
+    fields.allow_only(
+        {"name", "type", "direction", "up", "angle", "window", "near", "far", "resolution", "samples"});
+    return DistantLight{read_angle(fields)};
+  }
+  if (type == "sphere" || type == "mesh") {
     fields.refuse("type", "lights of type " + type + ": not supported yet");
   }
-  fields.refuse("type", "must be rect or disk");
+  fields.refuse("type", "must be rect, disk or distant");
 }
 
 void refuse_unsupported(const JsonFields& fields) {
@@ -106,9 +120,9 @@ std::array<std::uint32_t, 2> read_resolution(const JsonFields& fields) {
           static_cast<std::uint32_t>(value[1].get<double>())};
 }
 
-/// Position and axes.
+/// Position and axes. A distant light is placed when the geometry is known.
 void read_frame(const JsonFields& fields, Light& light) {
-  light.position = fields.vector("position");
+  if (!is_distant(light)) light.position = fields.vector("position");
   light.direction = fields.vector("direction");
   if (fields.has("up")) light.up = fields.vector("up");
   switch (frame_fault(light)) {

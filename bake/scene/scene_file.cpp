@@ -132,7 +132,10 @@ Scene SceneReader::read() {
     const json& nodes = fields.array("geometry");
     for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
   }
-  for (const Light& light : scene_.lights) warn_if_inside(scene_, light);
+  for (Light& light : scene_.lights) {
+    place_distant_light(scene_, light);
+    warn_if_inside(scene_, light);
+  }
   scene_.content_hash = files_.content_hash();
   return std::move(scene_);
 }

@@ -77,25 +77,29 @@ std::uint64_t resident_bytes() {
 
 void check_samples(const std::vector<LightSample>& samples, const View& view) {
   for (const LightSample& sample : samples) {
+    const bool distant = view.projection == Projection::orthographic;
+    const double z = sample.position[2];
     const bool good = std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
-                      std::isfinite(sample.position[2]) && sample.position[2] < view.near_depth;
-    require(good, "light samples", "must be finite and in front of near");
+                      std::isfinite(z) && (distant ? z == 1 : z < view.near_depth);
+    require(good, "light samples",
+            distant ? "must be finite directions with z = 1" : "must be finite and in front of near");
   }
 }
 
 /// Depth before which no caster is in the way. A fitted near is the nearest caster's in the hull, unless it
 /// was raised to its floor; before any other near, casters still count.
 double caster_clip_depth(const FittedView& fitted, bool own_samples) {
+  const bool distant = fitted.view.projection == Projection::orthographic;
+  const double near = fitted.view.near_depth, floor = distant ? 0 : kNearFloor * fitted.view.far_depth;
+  const double emitter = distant ? 0 : kEmitterShare * near;
   // Samples that the caller brings may lie outside the light's shape, and so outside the hull.
-  if (own_samples) return kEmitterShare * fitted.view.near_depth;
-  const double near = fitted.view.near_depth, floor = kNearFloor * fitted.view.far_depth;
-  return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack)
-                                                               : kEmitterShare * near;
+  if (own_samples) return emitter;
+  return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack) : emitter;
 }
 
 /// A share of the map texel footprint at far, the larger of both axes.
 double default_bias(const MapGrid& grid) {
-  return kBiasFootprints * std::max(grid.pitch[0], grid.pitch[1]) * grid.far_depth;
+  return kBiasFootprints * std::max(grid.pitch[0], grid.pitch[1]) * grid.spread_at(grid.far_depth);
 }
 
 }  // namespace
@@ -119,7 +123,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh = omp_get_wtime() - start;
   if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
-  if (has_shadows() && shift_law())
+  if (has_shadows() && shift_law() && grid.perspective())
     casters = project_casters(light_space, grid, bound_samples(samples),
                               first_caster_depth(grid, samples.front()), options.threads);
   resident_after_bvh = resident_bytes();
@@ -153,7 +157,8 @@ bool BakeJob::has_shadows() const {
 }
 
 bool BakeJob::shift_law() const {
-  return std::all_of(samples.begin(), samples.end(), obeys_shift_law);
+  return std::all_of(samples.begin(), samples.end(),
+                     [this](const LightSample& sample) { return obeys_shift_law(grid, sample); });
 }
 
 }  // namespace pdsm

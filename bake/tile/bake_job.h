@@ -25,7 +25,7 @@ class BakeJob {
   /// Whether any function may be other than empty.
   [[nodiscard]] bool has_shadows() const;
 
-  /// Whether all samples lie in the light's plane, so that one walk serves all rays of each.
+  /// Whether all samples obey the shift law (walk/ray_path.h), so that one walk serves all rays of each.
   [[nodiscard]] bool shift_law() const;
 
   BakeOptions options;  ///< with all defaults filled in

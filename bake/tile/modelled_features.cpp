@@ -47,12 +47,14 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
 void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
   const std::uint64_t texels = std::uint64_t{job.grid.texels[0]} * job.grid.texels[1];
   const std::uint64_t samples = job.samples.size();
-  const bool casts = job.has_shadows();
+  const bool casts = job.has_shadows(), parallel = !job.grid.perspective();
   list.either(casts, "shadow maps", "casters lie between light and window",
               "no caster lies between light and window", counted(samples, "shadow maps"));
   if (casts)
     list.either(job.casters.empty(), "tracing of shadow maps",
-                "light samples lie out of the light's plane, or triangles are many or close to the light",
+                parallel ? "the light is distant: triangles are projected only for lights with a place"
+                         : "light samples lie out of the light's plane, or triangles are many or close to "
+                           "the light",
                 "triangles are projected into them", counted(samples, "traced maps"));
   if (casts && job.shift_law())
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
@@ -62,7 +64,8 @@ void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList
                 "receivers lie close behind surfaces that slope gently",
                 "hardly any receiver lies so close behind", counted(samples, "maps of second rays"));
   list.either(!job.shift_law(), "general scan conversion", "light samples lie out of the light's plane",
-              "all light samples lie in the light's plane: one walk serves all rays",
+              parallel ? "the light's rays are parallel: one walk serves all rays"
+                       : "all light samples lie in the light's plane: one walk serves all rays",
               counted((texels - 1) * samples, "conversions of a ray"));
   list.left_out("transmittance", "all casters are opaque: events are counted in integers",
                 counted(samples, "transmittance functions a map texel"));

@@ -153,13 +153,13 @@ class CellMarker {
   }
 
   [[nodiscard]] CellRange find_range(const ClippedTriangle& triangle, double first_depth) const {
-    const double spread = std::max(0.0, 1 / first_depth - 1 / input_.grid.far_depth);
+    const Spread spread = spread_from(first_depth);
     std::int64_t low[2], high[2];
     const std::int32_t start[2] = {cells_.tile.x0, cells_.tile.y0}, cells[2] = {cells_.across, cells_.up};
     for (int a = 0; a < 2; ++a) {
       double least = std::numeric_limits<double>::infinity(), greatest = -least;
       for (int n = 0; n < triangle.count; ++n) {
-        const double slope = triangle.corner[n][a] / triangle.corner[n].z;
+        const double slope = triangle.corner[n][a] / input_.grid.spread_at(triangle.corner[n].z);
         least = std::min(least, slope);
         greatest = std::max(greatest, slope);
       }
@@ -167,12 +167,35 @@ class CellMarker {
       const MapGrid& grid = input_.grid;
       const double pad = kTexelReach * grid.pitch[axis],
                    pitch = grid.pitch[axis] * grid.ratio[axis].maps_per_texel();
-      least += -input_.light.max[axis] * spread - pad;
-      greatest += -input_.light.min[axis] * spread + pad;
+      least += spread.least[axis] - pad;
+      greatest += spread.greatest[axis] + pad;
       low[a] = to_cell((least - grid.origin[axis]) / pitch, start[a], cells[a]);
       high[a] = to_cell((greatest - grid.origin[axis]) / pitch, start[a], cells[a] - 1) + 1;
     }
     return {std::max<std::int64_t>(low[0], 0), std::max<std::int64_t>(low[1], 0), high[0], high[1]};
+  }
+
+  /// How far beside a caster point its shadow falls on rays.
+  struct Spread {
+    std::array<double, 2> least{}, greatest{};
+  };
+  /// Of what lies from `first_depth` on.
+  [[nodiscard]] Spread spread_from(double first_depth) const {
+    const MapGrid& grid = input_.grid;
+    const LightBounds& light = input_.light;
+    Spread spread;
+    for (std::size_t a = 0; a < 2; ++a) {
+      if (grid.perspective()) {
+        const double reach = std::max(0.0, 1 / first_depth - 1 / grid.far_depth);
+        spread.least[a] = -light.max[a] * reach;
+        spread.greatest[a] = -light.min[a] * reach;
+      } else {
+        const double reach = std::max(0.0, grid.far_depth - first_depth);
+        spread.least[a] = light.min[a] * reach;
+        spread.greatest[a] = light.max[a] * reach;
+      }
+    }
+    return spread;
   }
 
   /// Cell of a texel coordinate, between -1 and `most`.
@@ -187,21 +210,25 @@ class CellMarker {
     const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
     glm::dvec3 normal = glm::cross(b - a, c - a);
     double offset = glm::dot(normal, a);
-    if (offset > 0) {
+    // Turned so that the light's centre is in front: normal . P >= offset.
+    const bool parallel = !input_.grid.perspective();
+    if (parallel ? normal.z > 0 : offset > 0) {
       normal = -normal;
       offset = -offset;
     }
-    // Now the light's centre is in front: normal . P >= offset.
     for (const double light_x : {input_.light.min[0], input_.light.max[0]}) {
       for (const double light_y : {input_.light.min[1], input_.light.max[1]}) {
-        if (normal.x * light_x + normal.y * light_y < offset) return false;
+        const double across = normal.x * light_x + normal.y * light_y;
+        // A distant light's rays (x, y, 1) have to come from the front.
+        if (parallel ? across + normal.z > 0 : across < offset) return false;
       }
     }
     return for_each_ray(x, y, [&](std::int32_t i, std::int32_t j) {
-      const double rate = normal.x * input_.grid.center_slope(0, static_cast<std::uint32_t>(i)) +
-                          normal.y * input_.grid.center_slope(1, static_cast<std::uint32_t>(j)) + normal.z;
+      const CentralRay ray = input_.grid.ray(input_.grid.center_slope(0, static_cast<std::uint32_t>(i)),
+                                             input_.grid.center_slope(1, static_cast<std::uint32_t>(j)));
+      const double rate = glm::dot(normal, ray.direction), start = glm::dot(normal, ray.origin);
       const double end = static_cast<double>(domain_end_(i, j)) - input_.depth_rounding;
-      return rate >= 0 || end * rate >= offset;
+      return (rate >= 0 && start >= offset) || start + end * rate >= offset;
     });
   }
 

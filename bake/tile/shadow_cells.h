@@ -19,7 +19,9 @@
 /// A caster point Q at depth t is in the way between the light sample s and the point z (u, v, 1) if
 /// Q_xy / t - u = s (1/t - 1/z) for some z in (t, e], e the ray's domain end. So Q can darken rays with
 ///   u in  Q_xy / t - [s_min, s_max] (1/t - 1/e)
-/// widened by what a map texel spans. A triangle's bounds follow from its vertices. Besides, a triangle
+/// widened by what a map texel spans. Under a distant light, of directions (d, 1), these are the rays at
+///   u in  Q_xy + [d_min, d_max] (e - t)
+/// A triangle's bounds follow from its vertices. Besides, a triangle
 /// can't darken a ray that ends before its plane is crossed, if the whole light is on that side too.
 namespace pdsm {
 

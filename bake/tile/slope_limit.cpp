@@ -22,7 +22,7 @@ std::int32_t packet_texel(const MapGrid& grid, std::size_t axis, std::int32_t n)
 }  // namespace
 
 SlopeLimit find_slope_limit(const EmbreeScene& scene, const MapGrid& grid, Walk walk, double constant) {
-  const LightSample centre;
+  const LightSample centre = grid.centre_sample();
   const MapBias every = sample_bias(grid, walk, true, {constant, constant}, centre);
   const MapBias steep = sample_bias(grid, walk, true, {constant, kSteep * constant}, centre);
   SampleMap limited, free;

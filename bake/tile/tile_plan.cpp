@@ -107,26 +107,33 @@ bool fits(const PlanInput& input, const TilePlan& plan) {
          static_cast<double>(plan.event_limit);
 }
 
-/// Walks grow as 1 / near; before they are listed, their length is told from the light's size.
+/// Walks grow as 1 / near, or with the depth under a distant light; before they are listed, their length is
+/// told from the light's size.
 void check_walk_length(const PlanInput& input) {
-  const double spread = 1 / input.grid.near_depth - 1 / input.grid.far_depth;
+  const MapGrid& grid = input.grid;
+  const double spread =
+      grid.perspective() ? 1 / grid.near_depth - 1 / grid.far_depth : grid.far_depth - grid.near_depth;
   double longest = 0;
   for (const LightSample& sample : input.samples) {
     for (std::size_t a = 0; a < 2; ++a) {
-      longest = std::max(longest, std::abs(sample.position[a]) * spread / input.grid.pitch[a]);
+      longest = std::max(longest, std::abs(sample.position[a]) * spread / grid.pitch[a]);
     }
   }
   if (longest <= kLongestWalk) return;
+  const std::string why =
+      grid.perspective()
+          ? fmt::format("as near is {:g} m from the light: give a coarser map or a larger near",
+                        grid.near_depth)
+          : fmt::format("as far is {:g} m behind near: give a coarser map or a smaller angle", spread);
   throw Error(Failure::resource, "--map-resolution",
-              "walks would cross " + std::to_string(static_cast<std::int64_t>(std::min(longest, 1e18))) +
-                  " map texels, as near is " + fmt::format("{:g}", input.grid.near_depth) +
-                  " m from the light: give a coarser map or a larger near");
+              fmt::format("walks would cross {} map texels, {}",
+                          static_cast<std::int64_t>(std::min(longest, 1e18)), why));
 }
 
 }  // namespace
 
 TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk walk, const TexelRect& rays) {
-  if (!obeys_shift_law(sample)) return general_footprint(grid, sample, rays);
+  if (!obeys_shift_law(grid, sample)) return general_footprint(grid, sample, rays);
   ShiftWalk shift;
   shift.list(grid, sample, walk);
   return shift.footprint(rays);

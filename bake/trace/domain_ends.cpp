@@ -11,19 +11,23 @@ namespace {
 
 constexpr std::int32_t kPacketRays = 16;
 
+CentralRay ray_of(const MapGrid& grid, std::int32_t x, std::int32_t y) {
+  return grid.ray(grid.center_slope(0, static_cast<std::uint32_t>(x)),
+                  grid.center_slope(1, static_cast<std::uint32_t>(y)));
+}
+
 void fill_packet(RTCRayHit16& packet, int* valid, const MapGrid& grid, std::int32_t x0, std::int32_t x1,
                  std::int32_t y) {
   const double start = receiver_ray_start(grid);
   for (int lane = 0; lane < kPacketRays; ++lane) {
     valid[lane] = x0 + lane < x1 ? -1 : 0;
-    const double u = grid.center_slope(0, static_cast<std::uint32_t>(x0 + lane));
-    const double v = grid.center_slope(1, static_cast<std::uint32_t>(y));
-    packet.ray.org_x[lane] = static_cast<float>(u * start);
-    packet.ray.org_y[lane] = static_cast<float>(v * start);
-    packet.ray.org_z[lane] = static_cast<float>(start);
-    packet.ray.dir_x[lane] = static_cast<float>(-u);
-    packet.ray.dir_y[lane] = static_cast<float>(-v);
-    packet.ray.dir_z[lane] = -1;
+    const RayToLight ray = ray_to_light(ray_of(grid, x0 + lane, y), start);
+    packet.ray.org_x[lane] = ray.origin.x;
+    packet.ray.org_y[lane] = ray.origin.y;
+    packet.ray.org_z[lane] = ray.origin.z;
+    packet.ray.dir_x[lane] = ray.direction.x;
+    packet.ray.dir_y[lane] = ray.direction.y;
+    packet.ray.dir_z[lane] = ray.direction.z;
     packet.ray.tnear[lane] = 0;
     packet.ray.tfar[lane] = static_cast<float>(start);
     packet.ray.time[lane] = 0;
@@ -37,9 +41,7 @@ float end_depth(const EmbreeScene& scene, const MapGrid& grid, const RTCRayHit16
                 std::int32_t x, std::int32_t y) {
   if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<float>::infinity();
   const LightSpaceMesh& mesh = scene.geometry().meshes[packet.hit.geomID[lane]];
-  const PlaneOnRay plane =
-      plane_on_ray(mesh, packet.hit.primID[lane], grid.center_slope(0, static_cast<std::uint32_t>(x)),
-                   grid.center_slope(1, static_cast<std::uint32_t>(y)));
+  const PlaneOnRay plane = plane_on_ray(mesh, packet.hit.primID[lane], grid, ray_of(grid, x, y));
   const double traced = receiver_ray_start(grid) - static_cast<double>(packet.ray.tfar[lane]);
   return static_cast<float>(surface_depth(grid, plane, traced));
 }

@@ -6,8 +6,8 @@
 namespace pdsm {
 
 LightBounds bound_samples(std::span<const LightSample> samples) {
-  LightBounds bounds{samples[0].position[0], samples[0].position[1], samples[0].position[0],
-                     samples[0].position[1]};
+  // The centre counts as one of them: shadows begin in their casters, whatever side all samples are on.
+  LightBounds bounds;
   for (const LightSample& sample : samples) {
     for (std::size_t a = 0; a < 2; ++a) {
       bounds.min[a] = std::min(bounds.min[a], sample.position[a]);

@@ -8,7 +8,8 @@
 
 namespace pdsm {
 
-/// Bounds of the light samples in the light's plane.
+/// Bounds of the light samples in the light's plane (of a distant light, of their directions) and of its
+/// centre.
 struct LightBounds {
   std::array<double, 2> min{}, max{};
 };

@@ -7,26 +7,37 @@
 namespace pdsm {
 
 double first_caster_depth(const MapGrid& grid, const LightSample& sample) {
-  return std::max(kEmitterShare * grid.near_depth - sample.position[2], 0.0);
+  return grid.perspective() ? std::max(kEmitterShare * grid.near_depth - sample.position[2], 0.0) : 0;
 }
 
 MapRays::MapRays(const MapGrid& grid, const LightSample& sample)
-    : sample_(sample), t_near_(static_cast<float>(first_caster_depth(grid, sample))) {
-  const double focus = grid.focus_depth, distance = focus - sample.position[2];
+    : t_near_(static_cast<float>(first_caster_depth(grid, sample))) {
+  const auto& s = sample.position;
+  const double focus = grid.focus_depth;
+  direction_.first[2] = 1;
   for (std::size_t a = 0; a < 2; ++a) {
     const double slope = grid.origin[a] + (0.5 + sample.jitter[a]) * grid.pitch[a];
-    first_[a] = (slope * focus - sample.position[a]) / distance;
-    step_[a] = grid.pitch[a] * focus / distance;
+    if (grid.perspective()) {
+      direction_.first[a] = (slope * focus - s[a]) / (focus - s[2]);
+      direction_.step[a] = grid.pitch[a] * focus / (focus - s[2]);
+      origin_.first[a] = s[a];
+    } else {
+      origin_.first[a] = slope - s[a] * focus;
+      origin_.step[a] = grid.pitch[a];
+      direction_.first[a] = s[a];
+    }
   }
+  if (grid.perspective()) origin_.first[2] = s[2];
 }
 
 void MapRays::fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const {
   for (int lane = 0; lane < kMapPacketRays; ++lane) {
-    packet.ray.org_x[lane] = static_cast<float>(sample_.position[0]);
-    packet.ray.org_y[lane] = static_cast<float>(sample_.position[1]);
-    packet.ray.org_z[lane] = static_cast<float>(sample_.position[2]);
-    packet.ray.dir_x[lane] = static_cast<float>(first_[0] + step_[0] * (x0 + lane % kPacketEdge));
-    packet.ray.dir_y[lane] = static_cast<float>(first_[1] + step_[1] * (y0 + lane / kPacketEdge));
+    const std::int32_t x = x0 + lane % kPacketEdge, y = y0 + lane / kPacketEdge;
+    packet.ray.org_x[lane] = static_cast<float>(origin_.first[0] + origin_.step[0] * x);
+    packet.ray.org_y[lane] = static_cast<float>(origin_.first[1] + origin_.step[1] * y);
+    packet.ray.org_z[lane] = static_cast<float>(origin_.first[2]);
+    packet.ray.dir_x[lane] = static_cast<float>(direction_.first[0] + direction_.step[0] * x);
+    packet.ray.dir_y[lane] = static_cast<float>(direction_.first[1] + direction_.step[1] * y);
     packet.ray.dir_z[lane] = 1;
     packet.ray.tnear[lane] = t_near_;
     packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();

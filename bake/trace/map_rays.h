@@ -17,10 +17,12 @@ namespace pdsm {
 inline constexpr int kMapPacketRays = kPacketEdge * kPacketEdge;
 static_assert(kMapPacketRays == SurfaceBias::kLanes);
 
-/// Depth behind its sample from which on geometry counts: up to there it is the emitter itself.
+/// Depth behind its sample from which on geometry counts: up to there it is the emitter itself. Before a
+/// distant light, all of light space counts.
 [[nodiscard]] double first_caster_depth(const MapGrid& grid, const LightSample& sample);
 
-/// Rays of one light sample through map texel centres: direction (d_x, d_y, 1), so that t = z - s_z.
+/// Rays of one light sample through map texel centres: direction (d_x, d_y, 1), so that t = z - s_z. Those of
+/// a distant light begin in the plane z = 0, where light space does.
 class MapRays {
  public:
   MapRays(const MapGrid& grid, const LightSample& sample);
@@ -28,9 +30,16 @@ class MapRays {
   /// The rays of the packet whose lower texel is (x0, y0); none has met anything yet.
   void fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const;
 
+  /// Depth at t = 0.
+  [[nodiscard]] float origin_z() const { return static_cast<float>(origin_.first[2]); }
+
  private:
-  LightSample sample_;
-  std::array<double, 2> first_{}, step_{};  // direction of texel 0's centre, change per texel
+  /// A vector at texel 0's centre, and its change per texel along x and y.
+  struct Linear {
+    std::array<double, 3> first{};
+    std::array<double, 2> step{};
+  };
+  Linear origin_, direction_;
   float t_near_;
 };
 

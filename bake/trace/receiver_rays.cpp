@@ -37,13 +37,21 @@ double receiver_ray_start(const MapGrid& grid) {
   return grid.far_depth * (1 + kBehindFar);
 }
 
-PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, double u, double v) {
-  // n . z (u, v, 1) = c, so z = c / (n . d), and dz/du = -z n_x / (n . d).
+RayToLight ray_to_light(const CentralRay& ray, double start) {
+  return {glm::vec3(ray.origin + start * ray.direction), glm::vec3(-ray.direction)};
+}
+
+PlaneOnRay plane_on_ray(const LightSpaceMesh& mesh, unsigned triangle, const MapGrid& grid,
+                        const CentralRay& ray) {
+  // n . (o + z d) = c, so z = (c - n . o) / (n . d). A change of slope by 1 moves the point by the spread s
+  // at its depth, z (perspective) or 1, so dz/du = -s n_x / (n . d).
   const glm::uvec3 t = mesh.triangles[triangle];
   const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
   const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double facing = glm::dot(normal, glm::dvec3(u, v, 1)), depth = glm::dot(normal, a) / facing;
-  return {depth, -depth * normal.x / facing, -depth * normal.y / facing};
+  const double facing = glm::dot(normal, ray.direction),
+               depth = (glm::dot(normal, a) - glm::dot(normal, ray.origin)) / facing;
+  const double spread = grid.spread_at(depth);
+  return {depth, -spread * normal.x / facing, -spread * normal.y / facing};
 }
 
 double surface_depth(const MapGrid& grid, const PlaneOnRay& plane, double traced_depth) {

@@ -75,7 +75,6 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
                                SlopeBiasStatistics& statistics) {
   const MapRays rays(grid, sample);
   const SurfaceBias surface_bias(scene, grid, sample, bias);
-  const auto origin_z = static_cast<float>(sample.position[2]);
   alignas(64) int valid[kMapPacketRays];
   std::fill(std::begin(valid), std::end(valid), -1);
   RTCIntersectContext context;
@@ -89,7 +88,7 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
       if (mask != nullptr && !mask->is_wanted(x, y)) continue;
       rays.fill(packet, x, y);
       rtcIntersect16(valid, scene.handle(), &context, &packet);
-      store_packet(packet, surface_bias, origin_z, x, y, map, statistics);
+      store_packet(packet, surface_bias, rays.origin_z(), x, y, map, statistics);
       traced += kMapPacketRays;
     }
   }

@@ -14,37 +14,38 @@ constexpr double kStepShare = 1e-6;
 
 using Bands = std::vector<DepthBand>;
 
+/// How far a plane may lie behind `depth`, where a ray meets it, within a texel of that ray; at most far.
+double rise_within_texel(const MapGrid& grid, const PlaneOnRay& plane, double depth) {
+  const double texel_u = grid.pitch[0] * grid.ratio[0].maps_per_texel(),
+               texel_v = grid.pitch[1] * grid.ratio[1].maps_per_texel();
+  const double change = std::abs(plane.slope_u) * texel_u + std::abs(plane.slope_v) * texel_v;
+  // Parallel rays meet a plane at depths that are linear in their place.
+  if (!grid.perspective()) return change < grid.far_depth ? change : grid.far_depth;
+  // As for the slope bias (surface_bias.cpp): over a texel, n . d shrinks by this share.
+  const double share = change / depth;
+  return std::min(share < 1 ? depth * share / (1 - share) : grid.far_depth, grid.far_depth);
+}
+
 /// Bands of all light-facing receiver surfaces on one PDSM ray, unsorted.
 void collect_bands(const EmbreeScene& scene, const MapGrid& grid, double u, double v, double margin,
                    Bands& bands) {
   ReceiverContext receiver(Heading::to_light);
-  const double texel_u = grid.pitch[0] * grid.ratio[0].maps_per_texel(),
-               texel_v = grid.pitch[1] * grid.ratio[1].maps_per_texel();
+  const CentralRay central = grid.ray(u, v);
   double start = receiver_ray_start(grid);
   while (start > grid.near_depth) {
+    const RayToLight to_light = ray_to_light(central, start);
+    const glm::vec3 &from = to_light.origin, &along = to_light.direction;
     RTCRayHit ray{};
-    ray.ray = {static_cast<float>(u * start),
-               static_cast<float>(v * start),
-               static_cast<float>(start),
-               0,
-               static_cast<float>(-u),
-               static_cast<float>(-v),
-               -1,
-               0,
-               static_cast<float>(start),
-               kReceiverMask,
-               0,
-               0};
+    ray.ray = {from.x,        from.y, from.z, 0, along.x, along.y, along.z, 0, static_cast<float>(start),
+               kReceiverMask, 0,      0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene.handle(), &receiver.context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     const double traced = start - static_cast<double>(ray.ray.tfar);
-    const PlaneOnRay plane = plane_on_ray(scene.geometry().meshes[ray.hit.geomID], ray.hit.primID, u, v);
+    const PlaneOnRay plane =
+        plane_on_ray(scene.geometry().meshes[ray.hit.geomID], ray.hit.primID, grid, central);
     const double depth = surface_depth(grid, plane, traced);
-    // As for the slope bias (sample_map.cpp): over a texel, n . d shrinks by this share.
-    const double share = (std::abs(plane.slope_u) * texel_u + std::abs(plane.slope_v) * texel_v) / depth;
-    const double rise = share < 1 ? depth * share / (1 - share) : grid.far_depth;
-    const double reach = std::min(rise, grid.far_depth) + margin;
+    const double reach = rise_within_texel(grid, plane, depth) + margin;
     bands.push_back({static_cast<float>(depth - reach), static_cast<float>(depth + reach)});
     start = traced - kStepShare * grid.far_depth;
   }

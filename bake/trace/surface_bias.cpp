@@ -20,8 +20,9 @@ SurfaceBias::SurfaceBias(const EmbreeScene& scene, const MapGrid& grid, const Li
     : scene_(scene),
       constant_(static_cast<float>(bias.constant)),
       limited_from_(static_cast<float>(bias.limited_from)),
-      limit_(static_cast<float>(grid.far_depth)) {
-  const double lambda = (grid.focus_depth - sample.position[2]) / grid.focus_depth;
+      limit_(static_cast<float>(grid.far_depth)),
+      parallel_(!grid.perspective()) {
+  const double lambda = parallel_ ? 1 : (grid.focus_depth - sample.position[2]) / grid.focus_depth;
   reach_x_ = static_cast<float>(bias.reach[0] * grid.pitch[0] / lambda);
   reach_y_ = static_cast<float>(bias.reach[1] * grid.pitch[1] / lambda);
 }
@@ -29,11 +30,13 @@ SurfaceBias::SurfaceBias(const EmbreeScene& scene, const MapGrid& grid, const Li
 /// On the plane n . P = c the depth along direction d is t = c / (n . d), and d changes with the focus-plane
 /// slope a by 1 / lambda (see ray_path.h). Within r texels of pitch p of a hit, n . d shrinks by at most
 /// R = (r_x p_x |n_x| + r_y p_y |n_y|) / lambda, so the plane is at most t R / (|n . d| - R) behind it.
+/// Parallel rays are moved by r p instead, and d stays: the plane is at most R / |n . d| behind.
 float SurfaceBias::of_plane(const RTCRayHit16& packet, int lane) const {
   const float nx = packet.hit.Ng_x[lane], ny = packet.hit.Ng_y[lane], nz = packet.hit.Ng_z[lane];
   const float facing = std::abs(nx * packet.ray.dir_x[lane] + ny * packet.ray.dir_y[lane] + nz);
   const float shrink = reach_x_ * std::abs(nx) + reach_y_ * std::abs(ny);
-  const float behind = packet.ray.tfar[lane] * shrink, left = facing - shrink;
+  const float behind = parallel_ ? shrink : packet.ray.tfar[lane] * shrink;
+  const float left = parallel_ ? facing : facing - shrink;
   // Written so that a plane that is seen edge-on within the reach, and a sliver's NaN, take the limit.
   return behind < limit_ * left ? behind / left : limit_;
 }

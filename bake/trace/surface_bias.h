@@ -48,6 +48,7 @@ class SurfaceBias {
 
   const EmbreeScene& scene_;
   float constant_, limited_from_, reach_x_, reach_y_, limit_;
+  bool parallel_;  ///< the rays of a map are: those of a distant light
 };
 
 }  // namespace pdsm

@@ -17,7 +17,9 @@ DetailPoints::DetailPoints(const Scene& scene, const Light& light, double near_d
   for (std::uint32_t y = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x) {
       const auto seen = pictures.trace(camera.eye, rays.direction(x + 0.5, y + 0.5));
-      if (!seen || glm::dot(glm::dvec3(seen->normal), light.position - seen->position) <= 0) continue;
+      if (!seen) continue;
+      const glm::dvec3 to_light = is_distant(light) ? -light.direction : light.position - seen->position;
+      if (glm::dot(glm::dvec3(seen->normal), to_light) <= 0) continue;
       pixel_.push_back(std::size_t{y} * width + x);
       points_.push_back(seen->position);
     }

@@ -80,7 +80,8 @@ double ray_count(const TradeoffSetting& s) {
 /// Makes a plan of settings of up to `most_rays` each.
 class PlanMaker {
  public:
-  PlanMaker(const TradeoffSetting& centre, double most_rays) : most_rays_(most_rays) {
+  PlanMaker(const TradeoffSetting& centre, double most_rays, double largest_scale)
+      : most_rays_(most_rays), largest_scale_(largest_scale) {
     plan_.centre = centre;
   }
 
@@ -124,6 +125,7 @@ class PlanMaker {
   /// Adds a setting to the group of its like, once. Whether it may be in the plan.
   bool add(const TradeoffSetting& setting) {
     if (!can_be_baked(setting) || ray_count(setting) > most_rays_) return false;
+    if (setting.light_scale > largest_scale_) return false;
     const auto is_of = [&](const SettingGroup& group) {
       return same_but_for(Factor::epsilon, group.settings.front(), setting);
     };
@@ -135,7 +137,7 @@ class PlanMaker {
   }
 
   SweepPlan plan_;
-  double most_rays_;
+  double most_rays_, largest_scale_;
 };
 
 }  // namespace
@@ -146,10 +148,16 @@ std::size_t SweepPlan::setting_count() const {
   return count;
 }
 
-SweepPlan plan_sweep(const TradeoffSetting& centre, const std::vector<NamedSetting>& presets, Effort effort) {
+double largest_light_scale(const Light& light) {
+  const auto* sun = std::get_if<DistantLight>(&light.shape);
+  return sun == nullptr ? std::numeric_limits<double>::infinity() : kMostDistantAngle / sun->angle;
+}
+
+SweepPlan plan_sweep(const TradeoffSetting& centre, const std::vector<NamedSetting>& presets, Effort effort,
+                     double largest_scale) {
   const double most_rays =
       effort == Effort::quick ? ray_count(centre) : std::numeric_limits<double>::infinity();
-  PlanMaker maker(centre, most_rays);
+  PlanMaker maker(centre, most_rays, largest_scale);
   maker.add_named({"default", centre});
   for (const NamedSetting& preset : presets) maker.add_named(preset);
   maker.add_star(values_of(effort));
@@ -183,6 +191,8 @@ Light scaled_light(Light light, double scale) {
   if (auto* rect = std::get_if<RectLight>(&light.shape)) {
     rect->width *= scale;
     rect->height *= scale;
+  } else if (auto* sun = std::get_if<DistantLight>(&light.shape)) {
+    sun->angle *= scale;
   } else {
     std::get<DiskLight>(light.shape).radius *= scale;
   }

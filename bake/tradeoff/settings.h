@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct TradeoffSetting {
   double map_scale = 1;                     ///< texels of a sample map by texels of the map, along each axis
   Walk walk = Walk::exact;
   double epsilon = 0.02;
-  double light_scale = 1;  ///< of the light's width and height, or radius
+  double light_scale = 1;  ///< of the light's width and height, radius or angle
 
   friend bool operator==(const TradeoffSetting&, const TradeoffSetting&) = default;
 };
@@ -57,9 +58,14 @@ struct SweepPlan {
 };
 
 /// A star around `centre`, one factor at a time, a grid of samples, resolution and epsilon, and `presets`.
-/// What a bake does not take (0 samples, 20000 texels) is left out; no setting comes twice.
+/// What a bake does not take (0 samples, 20000 texels, a light larger than `largest_scale`) is left out; no
+/// setting comes twice.
 [[nodiscard]] SweepPlan plan_sweep(const TradeoffSetting& centre, const std::vector<NamedSetting>& presets,
-                                   Effort effort);
+                                   Effort effort,
+                                   double largest_scale = std::numeric_limits<double>::infinity());
+
+/// What a light's size can be multiplied by: a distant one has a greatest angle.
+[[nodiscard]] double largest_light_scale(const Light& light);
 
 /// The setting of a bake by `options`.
 [[nodiscard]] TradeoffSetting setting_of(const BakeOptions& options);
@@ -67,7 +73,7 @@ struct SweepPlan {
 /// `base` with what the setting says.
 [[nodiscard]] BakeOptions options_of(const TradeoffSetting& setting, BakeOptions base);
 
-/// `light` with its width and height, or radius, times `scale`.
+/// `light` with its width and height, radius or angle times `scale`.
 [[nodiscard]] Light scaled_light(Light light, double scale);
 
 /// Whether the settings are equal but for, perhaps, `factor`.

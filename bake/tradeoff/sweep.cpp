@@ -62,7 +62,8 @@ class SweepRun {
   SweepRun(const Scene& scene, const Light& light, const SweepOptions& options,
            const SweepCallbacks& callbacks)
       : scene_(scene), light_(light), options_(options), callbacks_(callbacks) {
-    sweep_.plan = plan_sweep(setting_of(options.options), options.presets, options.effort);
+    sweep_.plan =
+        plan_sweep(setting_of(options.options), options.presets, options.effort, largest_light_scale(light));
     sweep_.light = light;
   }
 

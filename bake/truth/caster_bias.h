@@ -19,13 +19,14 @@ struct CasterBias {
   /// than `least_gap` of the depth and `same_surface` of the constant left out. Null: nowhere.
   const LitSurfaces* behind = nullptr;
   double way_to_next = 1, same_surface = 0, least_gap = 0;
+  bool parallel = false;  ///< the light is distant
 };
 
 /// A point of a light.
 struct LightPoint {
-  glm::dvec3 position{0};  ///< light space, metres
-  /// Within this change of a ray's direction (x/z and y/z) a texel of the point's map stands for the plane of
-  /// what it shows. Only CasterBias asks.
+  glm::dvec3 position{0};  ///< light space, metres; of a distant light the direction of its rays, z = 1
+  /// Within this change of a ray's direction (x/z and y/z; of a distant light: of its place, metres) a texel
+  /// of the point's map stands for the plane of what it shows. Only CasterBias asks.
   std::array<double, 2> reach{};
 };
 
@@ -34,7 +35,9 @@ struct LightPoint {
 [[nodiscard]] inline double slope_bias(const CasterBias& bias, const LightPoint& from, const glm::dvec3& n,
                                        const glm::dvec3& d, double depth) {
   const double shrink = from.reach[0] * std::abs(n.x) + from.reach[1] * std::abs(n.y);
-  const double left = std::abs(glm::dot(n, d)) - shrink, slope = depth * shrink;
+  const double facing = std::abs(glm::dot(n, d));
+  const double left = bias.parallel ? facing : facing - shrink,
+               slope = bias.parallel ? shrink : depth * shrink;
   return slope < bias.limit * left ? slope / left : bias.limit;
 }
 

@@ -21,15 +21,27 @@ std::array<double, 2> concentric_disk(const std::array<double, 2>& unit) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+/// The unit disk to the directions within half of `angle` (degrees) of the axis: cos t = 1 - r^2 (1 - cos T),
+/// since by Archimedes a cap's area is its height.
+glm::dvec3 cap_direction(double angle, const std::array<double, 2>& disk) {
+  const double height = 1 - std::cos(angle / 2 * (std::numbers::pi / 180));
+  const double squared = disk[0] * disk[0] + disk[1] * disk[1];
+  if (!(squared > 0)) return {0, 0, 1};
+  const double cosine = 1 - squared * height;
+  const double scale = std::sqrt(height * (2 - squared * height)) / cosine;  // tan t / r
+  return {disk[0] * scale, disk[1] * scale, 1};
+}
+
 }  // namespace
 
-std::array<double, 2> light_point(const Light& light, const std::array<double, 2>& unit) {
+glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit) {
   if (const auto* rect = std::get_if<RectLight>(&light.shape)) {
-    return {(unit[0] - 0.5) * rect->width, (unit[1] - 0.5) * rect->height};
+    return {(unit[0] - 0.5) * rect->width, (unit[1] - 0.5) * rect->height, 0};
   }
   const std::array<double, 2> disk = concentric_disk(unit);
+  if (const auto* sun = std::get_if<DistantLight>(&light.shape)) return cap_direction(sun->angle, disk);
   const double radius = std::get<DiskLight>(light.shape).radius;
-  return {disk[0] * radius, disk[1] * radius};
+  return {disk[0] * radius, disk[1] * radius, 0};
 }
 
 JitteredGrid::JitteredGrid(std::uint32_t count)

@@ -3,15 +3,17 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "pdsm/bake/scene.h"
 
 namespace pdsm {
 
-/// Where the unit square goes on a light, in its own plane (light x and y, metres); equal areas stay equal.
-/// Rect: scaled. Disk: the concentric map, which keeps strata compact.
-/// Paper: Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997.
-[[nodiscard]] std::array<double, 2> light_point(const Light& light, const std::array<double, 2>& unit);
+/// Where the unit square goes on a light, in light space: a point of its plane (metres), or the direction of
+/// a distant light's rays, z = 1. Equal areas stay equal, for the distant light as solid angles.
+/// Rect: scaled. Disk: the concentric map, which keeps strata compact. Distant: that map lifted to the
+/// sphere. Paper: Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997.
+[[nodiscard]] glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit);
 
 /// A stratified jittered set of any size in the unit square. The square is cut into about sqrt(count) rows
 /// and each row into cells, so that every cell has area 1/count; a row with one cell more is that much

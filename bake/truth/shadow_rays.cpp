@@ -21,13 +21,21 @@ bool is_caster(const Geometry& geometry) {
   return geometry.casts;
 }
 
+glm::dvec3 rotate(const RigidTransform& transform, const glm::dvec3& v) {
+  const auto& r = transform.rotation;
+  return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
+          r[6] * v.x + r[7] * v.y + r[8] * v.z};
+}
+
 }  // namespace
 
-/// Rays from one point to up to 16 light points, `t` from 0 at the point to 1 at the light.
+/// Rays from one point to up to 16 light points, `t` from 0 at the point to 1 at the light, or where a
+/// distant light's space begins.
 struct ShadowRays::Packet {
   glm::dvec3 world_point;
-  glm::vec3 origin;  ///< the point, from the casters' centre
-  double depth;      ///< of the point, light space
+  glm::vec3 origin;                      ///< the point, from the casters' centre
+  double depth;                          ///< of the point, light space
+  std::array<double, kPacketSize> rise;  ///< metres of depth for a change of t by 1
   std::uint32_t size = 0;
   std::array<glm::vec3, kPacketSize> direction;
   std::array<float, kPacketSize> end;
@@ -41,16 +49,12 @@ struct ShadowRays::BiasedContext {
   const CasterBias* bias;
   const RigidTransform* world_to_light;
 
-  [[nodiscard]] glm::dvec3 to_light(const glm::dvec3& v) const {
-    const auto& r = world_to_light->rotation;
-    return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
-            r[6] * v.x + r[7] * v.y + r[8] * v.z};
-  }
+  [[nodiscard]] glm::dvec3 to_light(const glm::dvec3& v) const { return rotate(*world_to_light, v); }
 
   /// Whether a caster met at `t` by the ray of `lane` is so near that its shadow begins behind the point.
   [[nodiscard]] bool ignores(unsigned lane, double t, const glm::dvec3& normal) const {
     const LightPoint& from = packet->light_point[lane];
-    const double depth = packet->depth - from.position.z;  // metres for a change of t by 1
+    const double depth = packet->rise[lane];
     const glm::dvec3 to_caster = -glm::dvec3(packet->direction[lane]) / depth;  // a metre of depth
     double slope = slope_bias(*bias, from, to_light(normal), to_light(to_caster), (1 - t) * depth);
     if (bias->behind != nullptr && slope > bias->limited_from) {
@@ -80,7 +84,8 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
     : light_(light),
       world_to_light_(light_frame(light)),
       light_to_world_(inverse(world_to_light_)),
-      emitter_depth_(kEmitterShare * near_depth),
+      distant_(is_distant(light)),
+      emitter_depth_(distant_ ? -std::numeric_limits<double>::infinity() : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
       casters_(scene, is_caster, [this](const std::array<glm::dvec3, 3>& corners) {
@@ -92,10 +97,7 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
   const JitteredGrid grid(samples);
-  const auto drawn = [&](std::uint32_t n) {
-    const std::array<double, 2> on_light = light_point(light_, grid.point(n, seed));
-    return LightPoint{glm::dvec3(on_light[0], on_light[1], 0)};
-  };
+  const auto drawn = [&](std::uint32_t n) { return LightPoint{light_point(light_, grid.point(n, seed))}; };
   return share_blocked(world_point, samples, drawn, nullptr);
 }
 
@@ -111,26 +113,32 @@ double ShadowRays::share_blocked(const glm::dvec3& world_point, std::uint32_t co
   assert(count >= 1);
   Packet packet;
   packet.depth = apply(world_to_light_, world_point).z;
-  if (!(packet.depth > emitter_depth_)) return 0;
+  if (!(packet.depth > std::max(emitter_depth_, 0.0))) return 0;
   packet.world_point = world_point;
   packet.origin = glm::vec3(world_point - casters_.centre());
   std::uint64_t blocked = 0;
   for (std::uint32_t first = 0; first < count; first += kPacketSize) {
     const std::uint32_t size = std::min(kPacketSize, count - first);
     packet.size = 0;
-    for (std::uint32_t i = 0; i < size; ++i) add_ray(world_point, light_point(first + i), packet);
+    for (std::uint32_t i = 0; i < size; ++i) add_ray(light_point(first + i), packet);
     blocked += static_cast<std::uint64_t>(count_blocked(packet, bias));
     if (count - first <= kPacketSize) break;  // first + 16 may not fit 32 bits
   }
   return static_cast<double>(blocked) / count;
 }
 
-void ShadowRays::add_ray(const glm::dvec3& world_point, const LightPoint& point, Packet& packet) const {
+void ShadowRays::add_ray(const LightPoint& point, Packet& packet) const {
   const std::uint32_t n = packet.size++;
-  const double length = packet.depth - point.position.z;
-  packet.direction[n] = glm::vec3(apply(light_to_world_, point.position) - world_point);
-  packet.end[n] = static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / length));
   packet.light_point[n] = point;
+  if (distant_) {
+    packet.rise[n] = packet.depth;
+    packet.direction[n] = glm::vec3(-packet.depth * rotate(light_to_world_, point.position));
+    packet.end[n] = std::numeric_limits<float>::infinity();
+  } else {
+    packet.rise[n] = packet.depth - point.position.z;
+    packet.direction[n] = glm::vec3(apply(light_to_world_, point.position) - packet.world_point);
+    packet.end[n] = static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / packet.rise[n]));
+  }
 }
 
 int ShadowRays::count_blocked(const Packet& packet, const CasterBias* bias) const {

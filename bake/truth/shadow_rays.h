@@ -19,12 +19,13 @@ namespace pdsm {
 class ShadowRays {
  public:
   /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never
-  /// blocks. Throws Error as light_frame() does, or (resource) when Embree fails.
+  /// blocks; all blocks before a distant light. Throws Error as light_frame() does, or (resource) when Embree
+  /// fails.
   ShadowRays(const Scene& scene, const Light& light, double near_depth);
 
   /// Share of `samples` (>= 1) light points that casters hide from `world_point` (metres); 0 behind the
-  /// light. Rays leave the point at 1e-4 of the distance to the light point. A pure function of its
-  /// arguments; any thread.
+  /// light. Rays leave the point at 1e-4 of the distance to the light point, or to where a distant light's
+  /// space begins. A pure function of its arguments; any thread.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                    std::uint64_t seed) const;
 
@@ -46,11 +47,12 @@ class ShadowRays {
   template <typename MakePoint>
   [[nodiscard]] double share_blocked(const glm::dvec3& world_point, std::uint32_t count,
                                      const MakePoint& light_point, const CasterBias* bias) const;
-  void add_ray(const glm::dvec3& world_point, const LightPoint& point, Packet& packet) const;
+  void add_ray(const LightPoint& point, Packet& packet) const;
   [[nodiscard]] int count_blocked(const Packet& packet, const CasterBias* bias) const;
 
   Light light_;
   RigidTransform world_to_light_, light_to_world_;
+  bool distant_;
   double emitter_depth_;  ///< light-space z up to which nothing blocks
   WorldScene casters_;
 };

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "pdsm/format/penumbra_map.h"
 
 /// The texel grids of a bake: the PDSM's, and the sample shadow maps', which all share one grid on the
-/// focus plane z = F (two-plane parametrisation), shifted by each sample's jitter.
+/// focus plane z = F (two-plane parametrisation), shifted by each sample's jitter. Grids are in slopes as
+/// seen from the light's centre, and in metres along x and y under a distant light ("slope" stands for both).
 namespace pdsm {
 
 /// Texels of the sample maps against texels of the PDSM along one axis: `fine` map texels a PDSM texel or
@@ -31,13 +33,38 @@ struct GridRatio {
 /// Geometry up to this share of near is the emitter itself, or behind it, and never blocks.
 inline constexpr double kEmitterShare = 1e-4;
 
+/// The points origin + z direction: a PDSM ray by depth.
+struct CentralRay {
+  glm::dvec3 origin{0}, direction{0, 0, 1};
+};
+
 struct MapGrid {
+  Projection projection = Projection::perspective;
   std::array<double, 2> origin{};  ///< slope at the window's lower corner
   std::array<double, 2> pitch{};   ///< slope per map texel
   std::array<GridRatio, 2> ratio{};
   std::array<std::uint32_t, 2> texels{};  ///< PDSM texels
   double near_depth = 0, far_depth = 0;
-  double focus_depth = 0;  ///< F: 1/F = (1/near + 1/far) / 2 halves the margins
+  /// F: 1/F = (1/near + 1/far) / 2, orthographic F = (near + far) / 2, halves the margins.
+  double focus_depth = 0;
+
+  [[nodiscard]] bool perspective() const { return projection == Projection::perspective; }
+
+  /// Metres at `depth` for a change of slope by 1.
+  [[nodiscard]] double spread_at(double depth) const { return perspective() ? depth : 1; }
+
+  /// One sample that stands for the whole light.
+  [[nodiscard]] LightSample centre_sample() const {
+    LightSample sample;
+    sample.position[2] = perspective() ? 0 : 1;
+    return sample;
+  }
+
+  /// The ray of slope (u, v).
+  [[nodiscard]] CentralRay ray(double u, double v) const {
+    if (perspective()) return {{0, 0, 0}, {u, v, 1}};
+    return {{u, v, 0}, {0, 0, 1}};
+  }
 
   /// Slope of PDSM texel centre `index` along `axis`.
   [[nodiscard]] double center_slope(int axis, std::uint32_t index) const {
@@ -53,7 +80,9 @@ struct MapGrid {
   grid.ratio = {round_ratio(map_width, view.width), round_ratio(map_height, view.height)};
   grid.near_depth = view.near_depth;
   grid.far_depth = view.far_depth;
-  grid.focus_depth = 2 / (1 / view.near_depth + 1 / view.far_depth);
+  grid.projection = view.projection;
+  grid.focus_depth = grid.perspective() ? 2 / (1 / view.near_depth + 1 / view.far_depth)
+                                        : (view.near_depth + view.far_depth) / 2;
   for (std::size_t a = 0; a < 2; ++a) {
     grid.origin[a] = view.window[a];
     grid.pitch[a] = (view.window[a + 2] - view.window[a]) / grid.texels[a] / grid.ratio[a].maps_per_texel();

@@ -23,7 +23,7 @@ std::int64_t map_texel(const GridRatio& ratio, std::int32_t ray) {
 }  // namespace
 
 void ShiftWalk::list(const MapGrid& grid, const LightSample& sample, Walk walk) {
-  assert(obeys_shift_law(sample));
+  assert(obeys_shift_law(grid, sample));
   ratio_ = grid.ratio;
   phases_.resize(std::size_t{ratio_[0].coarse} * ratio_[1].coarse);
   for (std::uint32_t y = 0; y < ratio_[1].coarse; ++y) {

@@ -137,6 +137,30 @@ TEST(LatticeSamples, AreNoWorseThanJitteredOnes) {
   }
 }
 
+/// The share of directions within an angle of a distant light's centre is that of the solid angles: exactly
+/// what the same points of the disk have within the radius that bounds as large a share.
+TEST(DistantSamples, AreUniformOverTheSolidAngle) {
+  for (const PointSet points : {PointSet::lattice, PointSet::jittered}) {
+    const auto disk = make_light_samples(disk_light(1), 256, points, 1);
+    for (const double angle : {0.53, 90.0}) {
+      const auto samples = make_light_samples(distant_light(angle), 256, points, 1);
+      const double half = angle / 2 * std::numbers::pi / 180;
+      for (std::size_t n = 0; n < samples.size(); ++n) {
+        const auto &d = samples[n].position, &p = disk[n].position;
+        EXPECT_EQ(d[2], 1);
+        EXPECT_EQ(samples[n].weight, 1);
+        EXPECT_EQ(samples[n].jitter, disk[n].jitter);
+        const double cosine = 1 / std::sqrt(1 + d[0] * d[0] + d[1] * d[1]);
+        // 1 - cos loses digits: 2^-53 of 1 - cos(half).
+        EXPECT_NEAR((1 - cosine) / (1 - std::cos(half)), p[0] * p[0] + p[1] * p[1], 1e-10);
+        EXPECT_NEAR(std::atan2(d[1], d[0]), std::atan2(p[1], p[0]), 1e-12);
+      }
+    }
+    for (const LightSample& s : make_light_samples(distant_light(0), 16, points, 1))
+      EXPECT_EQ(s.position, (std::array<double, 3>{0, 0, 1}));
+  }
+}
+
 struct Set {
   bool disk;
   PointSet points;

@@ -40,7 +40,7 @@ struct FilledCase {
   /// What both walks may read; the shift walk alone gets no more than it asked for.
   [[nodiscard]] TexelRect footprint(Walk walk) const {
     TexelRect rect = general_footprint(c.grid, c.sample, c.rect);
-    if (!obeys_shift_law(c.sample)) return rect;
+    if (!obeys_shift_law(c.grid, c.sample)) return rect;
     ShiftWalk shift;
     shift.list(c.grid, c.sample, walk);
     const TexelRect other = shift.footprint(c.rect);
@@ -96,16 +96,24 @@ std::size_t count_events(const EventLists& lists) {
 
 class WalkEvents : public testing::TestWithParam<Walk> {};
 
-TEST_P(WalkEvents, ShiftGeneralAndReferenceAgreeForPlanarSamples) {
+void expect_three_walks_agree(SamplePlane plane, Walk walk) {
   std::size_t events = 0;
   for (std::uint64_t n = 0; n < 1500; ++n) {
-    const FilledCase filled(n, SamplePlane::planar, GetParam());
-    const EventLists general = filled.walk_generally(GetParam());
-    ASSERT_EQ(filled.walk_shifted(GetParam()), general) << "case " << n;
-    ASSERT_EQ(sorted(general), filled.walk_by_reference(GetParam())) << "case " << n;
+    const FilledCase filled(n, plane, walk);
+    const EventLists general = filled.walk_generally(walk);
+    ASSERT_EQ(filled.walk_shifted(walk), general) << "case " << n;
+    ASSERT_EQ(sorted(general), filled.walk_by_reference(walk)) << "case " << n;
     events += count_events(general);
   }
   EXPECT_GT(events, 100000u) << "the cases must have events to compare";
+}
+
+TEST_P(WalkEvents, ShiftGeneralAndReferenceAgreeForPlanarSamples) {
+  expect_three_walks_agree(SamplePlane::planar, GetParam());
+}
+
+TEST_P(WalkEvents, ShiftGeneralAndReferenceAgreeForDistantLights) {
+  expect_three_walks_agree(SamplePlane::distant, GetParam());
 }
 
 TEST_P(WalkEvents, GeneralAndReferenceAgreeForTiltedSamples) {
@@ -135,7 +143,7 @@ TEST_P(WalkEvents, EverySimdTargetGivesTheSameEvents) {
 
 TEST_P(WalkEvents, ShiftWalkReadsNothingOutsideItsFootprint) {
   for (std::uint64_t n = 0; n < 500; ++n) {
-    const FilledCase filled(n, SamplePlane::planar, GetParam());
+    const FilledCase filled(n, n % 2 == 0 ? SamplePlane::planar : SamplePlane::distant, GetParam());
     const WalkCase& c = filled.c;
     ShiftWalk shift;
     shift.list(c.grid, c.sample, GetParam());

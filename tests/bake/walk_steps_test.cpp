@@ -246,6 +246,31 @@ TEST(RayPath, FollowsTheShiftLaw) {
   }
 }
 
+/// The same for the parallel rays of a distant light.
+TEST(RayPath, FollowsTheShiftLawUnderADistantLight) {
+  Random random(8);
+  for (int n = 0; n < kCases; ++n) {
+    const MapGrid grid = random_grid(random, SamplePlane::distant);
+    const LightSample sample = random_sample(random, grid, SamplePlane::distant);
+    const std::array<std::uint32_t, 2> index{random.count(0, grid.texels[0] - 1),
+                                             random.count(0, grid.texels[1] - 1)};
+    const RayPath path = make_ray_path(grid, sample, index[0], index[1]);
+    EXPECT_EQ(path.depth(path.w_begin), static_cast<float>(grid.near_depth));
+    EXPECT_EQ(path.depth(path.w_end), static_cast<float>(grid.far_depth));
+    for (const double z : {grid.near_depth, grid.focus_depth, grid.far_depth}) {
+      for (std::size_t a = 0; a < 2; ++a) {
+        const double place =
+            grid.origin[a] + (index[a] + 0.5) * grid.pitch[a] * grid.ratio[a].fine / grid.ratio[a].coarse;
+        const double on_focus = place + sample.position[a] * (grid.focus_depth - z);
+        const double expected = (on_focus - grid.origin[a]) / grid.pitch[a] - sample.jitter[a];
+        const double actual =
+            static_cast<double>(path.base[a]) + path.fraction[a] + path.slope[a] * (grid.focus_depth - z);
+        ASSERT_NEAR(actual, expected, 0x1.0p-24 + 0x1.0p-36) << "case " << n << ", z " << z;
+      }
+    }
+  }
+}
+
 TEST(MapGrid, RatiosRoundToTheNearestThatOneListServes) {
   const auto ratio = [](std::uint32_t map, std::uint32_t texels) {
     const GridRatio r = round_ratio(map, texels);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `info` and `check`.
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "scratch_scene.h"
 
@@ -19,6 +20,38 @@ TEST_F(Inspect, InfoTellsWhatIsThere) {
                            "texels     1024", "pieces", "modelled", "left out", "name key", "BLCK"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
   }
+}
+
+/// The sun, straight above a plate of 2 x 2 m one metre over a floor: from the scene file to look-ups.
+TEST_F(Inspect, DistantLightEndToEnd) {
+  write_file("sun.scene.json", R"({ "geometry": [ { "file": "plate.obj" }, { "file": "floor.obj" } ],
+      "lights": [ { "name": "sun", "type": "distant", "direction": [0, -1, 0], "angle": 10 } ] })");
+  const Outcome baked =
+      run({"bake", "sun.scene.json", "-o", "sun.pdsm", "--samples", "64", "--resolution", "64"});
+  ASSERT_EQ(baked.exit_code, 0) << baked.err;
+  EXPECT_EQ(run({"check", "sun.pdsm"}).exit_code, 0);
+  const Outcome told = run({"info", "sun.pdsm"});
+  for (const char* word : {"orthographic 64 x 64", "type distant", "angle 10", "the light is distant",
+                           "the light's rays are parallel"}) {
+    EXPECT_NE(told.out.find(word), std::string::npos) << word << " in\n" << told.out;
+  }
+  // In the umbra, 1 m - tan 5 degrees wide; at its plate's edge; lit; above the plate.
+  RunSetup points;
+  points.input = "0 0.01 0\n1 0.01 0.3\n1.2 0.01 0\n0 1.5 0\n";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"query", "sun.pdsm"}, std::vector<std::string>{"truth", "sun.scene.json"}}) {
+    const Outcome answers = run(command, points);
+    ASSERT_EQ(answers.exit_code, 0) << answers.err;
+    std::istringstream lines(answers.out);
+    double umbra = 0, edge = 0, lit = 1, above = 1;
+    lines >> umbra >> edge >> lit >> above;
+    EXPECT_NEAR(umbra, 1, 0.02);
+    // Half, but for what 64 samples, a texel of 0.034 m over a penumbra of 0.175 m, and epsilon are off.
+    EXPECT_NEAR(edge, 0.5, 0.163 + 0.034 / 0.175 + 0.02);
+    EXPECT_EQ(lit, 0);
+    EXPECT_EQ(above, 0);
+  }
+  EXPECT_EQ(run({"verify", "sun.pdsm", "sun.scene.json", "--points", "200", "--samples", "64"}).exit_code, 0);
 }
 
 TEST_F(Inspect, InfoJsonAddsUp) {

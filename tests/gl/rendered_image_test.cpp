@@ -17,12 +17,15 @@ namespace {
 
 constexpr std::uint32_t kWidth = 320, kHeight = 240;
 
-PenumbraMap bake_plate() {
-  const Scene scene = read_scene(std::string(PDSM_EXAMPLES) + "/scenes/plate.scene.json");
+Scene plate_scene() {
+  return read_scene(std::string(PDSM_EXAMPLES) + "/scenes/plate.scene.json");
+}
+
+PenumbraMap bake_plate(const Scene& scene, const Light& light) {
   BakeOptions options;
   options.width = options.height = 128;
   options.samples = 64;
-  return decode_blocks(bake(scene, scene.lights.front(), options));
+  return decode_blocks(bake(scene, light, options));
 }
 
 glm::dmat4 picture_matrix() {
@@ -79,8 +82,7 @@ glm::dvec3 floor_point(const glm::dmat4& to_world, double x, double y) {
   return front + (back - front) * (front.y / (front.y - back.y));
 }
 
-TEST(RenderedImage, AgreesWithThePictureByRaysAndLookUps) {
-  const PenumbraMap map = bake_plate();
+void expect_picture_by_rays_and_look_ups(const PenumbraMap& map) {
   const PenumbraLookUp look_up(map);
   const glm::dmat4 to_world = glm::inverse(picture_matrix());
   // GL may snap vertices to a 256th of a pixel; so the picture may be moved by as much, and once more for the
@@ -113,6 +115,23 @@ TEST(RenderedImage, AgreesWithThePictureByRaysAndLookUps) {
       EXPECT_GT(penumbra, pixels.size() / 50);
     }
   }
+}
+
+TEST(RenderedImage, AgreesWithThePictureByRaysAndLookUps) {
+  const Scene scene = plate_scene();
+  expect_picture_by_rays_and_look_ups(bake_plate(scene, scene.lights.front()));
+}
+
+/// An orthographic map.
+TEST(RenderedImage, AgreesUnderADistantLight) {
+  const Scene scene = plate_scene();
+  Light sun;
+  sun.shape = DistantLight{20};
+  sun.direction = {0.3, -1, 0.2};
+  place_distant_light(scene, sun);
+  const PenumbraMap map = bake_plate(scene, sun);
+  ASSERT_EQ(map.views.front().projection, Projection::orthographic);
+  expect_picture_by_rays_and_look_ups(map);
 }
 
 }  // namespace

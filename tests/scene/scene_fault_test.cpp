@@ -30,6 +30,12 @@ Fault in_light(const std::string& fields, const std::string& message) {
   return {scene_with_light(fields), "level.scene.json:lights[0]." + message};
 }
 
+/// A distant light from straight above with further fields.
+Fault in_sun(const std::string& fields, const std::string& message) {
+  return {R"({"lights": [{"type": "distant", "direction": [0, -1, 0], )" + fields + "}]}",
+          "level.scene.json:lights[0]." + message};
+}
+
 Fault in_geometry(const std::string& fields, const std::string& message) {
   return {scene_of("a.obj", fields), "level.scene.json:geometry[0]." + message};
 }
@@ -94,9 +100,22 @@ INSTANTIATE_TEST_SUITE_P(
               "level.scene.json:lights[0].position: is missing"},
         Fault{R"({"lights": [{"type": "disk", "radius": 1, "position": [0,0,1]}]})",
               "level.scene.json:lights[0].direction: is missing"},
-        in_light(R"("type": "spot")", "type: must be rect or disk"),
+        in_light(R"("type": "spot")", "type: must be rect, disk or distant"),
         in_light(R"("type": "sphere", "radius": 0.3)", "type: lights of type sphere: not supported yet"),
-        in_light(R"("type": "distant", "angle": 0.53)", "type: lights of type distant: not supported yet"),
+        in_light(R"("type": "distant", "angle": 0.53)",
+                 "position: unknown key; known are name, type, direction"),
+        in_sun(R"("angle": -0.1)", "angle: must be a number from 0 to 90"),
+        in_sun(R"("angle": 90.5)", "angle: must be a number from 0 to 90"),
+        in_sun(R"("angle": "wide")", "angle: must be a number"), in_sun(R"("fov": 30)", "fov: unknown key"),
+        in_sun(R"("width": 3)", "width: unknown key"), in_sun(R"("height": 3)", "height: unknown key"),
+        in_sun(R"("radius": 1)", "radius: unknown key"), in_sun(R"("faces": 1)", "faces: unknown key"),
+        in_sun(R"("emission": "sky.exr")", "emission: unknown key"),
+        in_sun(R"("near": 0)", "near: must be a number > 0"),
+        in_sun(R"("near": 3, "far": 2)", "near: must be less than far"),
+        in_sun(R"("window": [1, 0, 0, 1])", "window: must be [x0,y0,x1,y1]"),
+        in_sun(R"("up": [0, 1, 0])", "up: must not be zero or parallel to direction"),
+        Fault{R"({"lights": [{"type": "distant", "angle": 1}]})",
+              "level.scene.json:lights[0].direction: is missing"},
         in_light(R"("type": "mesh", "file": "tube.obj")", "type: lights of type mesh: not supported yet"),
         in_light(R"("type": "rect", "width": 1)", "height: is missing"),
         in_light(R"("type": "rect", "height": 1)", "width: is missing"),

@@ -99,6 +99,40 @@ TEST_F(SceneFile, DiskLightLeavesTheRestOpen) {
                lamp.samples);
 }
 
+TEST_F(SceneFile, DistantLightTakesAllFields) {
+  const Scene scene =
+      folder_.read(R"({"geometry": [{"file": "box.obj", "translate": [1e6, 0, -2e6]}], "lights": [
+      {"type": "distant", "direction": [0, -3, 0], "up": [1, 0, 0], "angle": 12, "window": [-9, -8, 7, 6],
+       "near": 0.5, "far": 20, "resolution": 64, "samples": 9, "name": "sun"},
+      {"type": "distant", "direction": [0, -3, 0]}]})");
+  const Light& sun = scene.lights[0];
+  EXPECT_EQ(std::get<DistantLight>(sun.shape).angle, 12);
+  EXPECT_EQ(sun.up, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(sun.window, (std::array<double, 4>{-9, -8, 7, 6}));
+  EXPECT_EQ(sun.near_depth, 0.5);
+  EXPECT_EQ(sun.far_depth, 20);
+  EXPECT_EQ(sun.samples, 9U);
+  EXPECT_EQ(std::get<DistantLight>(scene.lights[1].shape).angle, 0.53);
+}
+
+/// Light space begins above the middle of the geometry, a sixteenth of its diagonal in front of it.
+TEST_F(SceneFile, DistantLightsArePlacedInFrontOfTheGeometry) {
+  const Scene scene =
+      folder_.read(R"({"geometry": [{"file": "box.obj", "translate": [1e6, 0, -2e6]}], "lights": [
+      {"type": "distant", "direction": [0, -3, 0]}]})");
+  glm::dvec3 low(1e9), high(-1e9);
+  const Geometry& box = scene.geometry[0];
+  for (const glm::vec3& local : box.mesh->positions) {
+    const glm::dvec3 p(box.local_to_world * glm::dvec4(glm::dvec3(local), 1));
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3& at = scene.lights[0].position;
+  EXPECT_NEAR(at.x, (low.x + high.x) / 2, 1e-9);
+  EXPECT_NEAR(at.z, (low.z + high.z) / 2, 1e-9);
+  EXPECT_NEAR(at.y, high.y + glm::length(high - low) / 16, 1e-9);
+}
+
 TEST_F(SceneFile, FovIsASymmetricWindow) {
   const double t = std::tan(38.58 / 2 * std::numbers::pi / 180);
   const auto window = light(R"("fov": 38.58)").window.value();

@@ -81,18 +81,34 @@ std::vector<Triangle> light_space_triangles(const Scene& scene, const RigidTrans
   return triangles;
 }
 
-/// A point of a receiver that faces the point s of the light and lies in front of it, within 120 degrees.
-std::optional<glm::dvec3> random_receiver_point(const std::vector<Triangle>& triangles, const glm::dvec3& s,
-                                                Random& random) {
+/// A point of a triangle, drawn at random.
+struct SurfacePoint {
+  const Triangle& triangle;
+  glm::dvec3 p;
+
+  /// Whether light that comes along `to_light` arrives there on a receiver.
+  [[nodiscard]] bool receives(const glm::dvec3& to_light) const {
+    const auto& c = triangle.corners;
+    return triangle.receives &&
+           (!triangle.closed || glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), to_light) > 0);
+  }
+};
+
+SurfacePoint random_surface_point(const std::vector<Triangle>& triangles, Random& random) {
   const auto index = static_cast<std::size_t>(random(0, static_cast<double>(triangles.size())));
   const Triangle& t = triangles[index];
   const double a = std::sqrt(random(0, 1)), b = random(0, 1);
-  const glm::dvec3 p = t.corners[0] * (1 - a) + t.corners[1] * (a * (1 - b)) + t.corners[2] * (a * b);
-  const glm::dvec3 normal = glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
-  const bool faces = !t.closed || glm::dot(normal, s - p) > 0;
+  return {t, t.corners[0] * (1 - a) + t.corners[1] * (a * (1 - b)) + t.corners[2] * (a * b)};
+}
+
+/// A point of a receiver that faces the point s of the light and lies in front of it, within 120 degrees.
+std::optional<glm::dvec3> random_receiver_point(const std::vector<Triangle>& triangles, const glm::dvec3& s,
+                                                Random& random) {
+  const SurfacePoint point = random_surface_point(triangles, random);
+  const glm::dvec3& p = point.p;
   const double limit = std::numbers::sqrt3 * p.z;
   const bool in_front = p.z > 0 && std::abs(p.x) <= limit && std::abs(p.y) <= limit;
-  return t.receives && faces && in_front ? std::optional(p) : std::nullopt;
+  return point.receives(s - p) && in_front ? std::optional(p) : std::nullopt;
 }
 
 TEST(ViewFitProperty, ShadowsAreInTheWindowAndBlockersBehindNear) {
@@ -128,6 +144,47 @@ TEST(ViewFitProperty, ShadowsAreInTheWindowAndBlockersBehindNear) {
     }
   }
   // The scenes are worth it: many shadows, and many windows smaller than everything.
+  EXPECT_GT(darkened, 5000);
+  EXPECT_GT(narrowed, 50);
+}
+
+TEST(ViewFitProperty, ShadowsOfTheSunAreInTheWindowToo) {
+  Random random(20240608);
+  int darkened = 0, narrowed = 0;
+  for (int round = 0; round < 400; ++round) {
+    Scene scene = random_scene(random);
+    // A floor that casts on boxes below it has a shadow as large as itself.
+    scene.geometry[0].casts = round % 2 == 0;
+    Light light;
+    light.shape = DistantLight{random(0, 1) < 0.3 ? 0.53 : random(0, 90)};
+    light.direction = random.vector(-1, 1) - glm::dvec3(0, 0.5, 0);
+    place_distant_light(scene, light);
+    const FittedView fitted = fit_view(scene, light, 1, 1);
+    const auto& w = fitted.view.window;
+    const std::vector<Triangle> triangles = light_space_triangles(scene, fitted.view.world_to_view);
+    const double h = half_extents(light)[0];
+    narrowed += fitted.receivers_outside > 0.1 ? 1 : 0;
+    for (int ray = 0; ray < 200; ++ray) {
+      const double angle = random(0, 2 * std::numbers::pi), radius = random(0, h);
+      const glm::dvec3 d(radius * std::cos(angle), radius * std::sin(angle), 1);
+      const SurfacePoint point = random_surface_point(triangles, random);
+      const glm::dvec3& p = point.p;
+      if (!point.receives(-d)) continue;
+      for (const Triangle& caster : triangles) {
+        const std::optional<double> share = caster.casts ? crossing(caster, p - p.z * d, p) : std::nullopt;
+        // What touches the point does not block.
+        if (!share || *share > 1 - 2e-3) continue;
+        ++darkened;
+        ASSERT_TRUE(p.x >= w[0] && p.x <= w[2] && p.y >= w[1] && p.y <= w[3])
+            << "round " << round << ": " << p.x << ", " << p.y << " not in " << w[0] << " " << w[1] << " "
+            << w[2] << " " << w[3];
+        ASSERT_GT(*share, 0) << "round " << round;
+        ASSERT_GE(*share * p.z, fitted.view.near_depth) << "round " << round;
+        ASSERT_LE(p.z, fitted.view.far_depth) << "round " << round;
+        ASSERT_FALSE(fitted.nothing_casts) << "round " << round;
+      }
+    }
+  }
   EXPECT_GT(darkened, 5000);
   EXPECT_GT(narrowed, 50);
 }

@@ -66,6 +66,39 @@ TEST(ViewFit, BorderOfTheShadowIsInside) {
   EXPECT_GT(w[3], kPlateShadow[3] + 1e-7);
 }
 
+/// The plate scene in a sun of 60 degrees from straight above: shadows reach (2.5 m) tan 30 beside the plate.
+TEST(ViewFit, DistantLightOverPlateAndFloor) {
+  Light sun = plate_light();
+  sun.shape = DistantLight{60};
+  const FittedView fitted = fit_view(plate_scene(), sun, 64, 64);
+  const double reach = 2.5 * std::tan(std::numbers::pi / 6);
+  expect_window(fitted.view.window, {-0.4 - reach, -0.5 - reach, 0.8 + reach, 0.3 + reach});
+  EXPECT_EQ(fitted.view.projection, Projection::orthographic);
+  EXPECT_NEAR(fitted.view.near_depth, 3.5, 3.5 * kPad);
+  EXPECT_NEAR(fitted.view.far_depth, 6, 6 * kPad);
+  const double inside = (1.2 + 2 * reach) * (0.8 + 2 * reach), plate = 1.2 * 0.8;
+  EXPECT_NEAR(fitted.receivers_outside, 1 - (inside + plate) / (400 + plate), 1e-5);
+}
+
+/// What casts into a given window may lie beside it, by up to the way to the deepest receiver times tan 30;
+/// and as near as it likes, for a distant light has no emitter in the scene.
+TEST(ViewFit, DistantLightFindsCastersThatSlantIntoItsWindow) {
+  Light sun = plate_light();
+  sun.shape = DistantLight{60};
+  sun.window = {-1, -1, 1, 1};
+  const double beside = (6 - 1e-5) * std::tan(std::numbers::pi / 6);
+  for (const double x : {beside - 0.02, beside + 0.02}) {
+    Scene scene;
+    scene.geometry = {placed(plate_mesh(0.02, 0.02), {1 + x, 6 - 1e-5, 0}),
+                      placed(plate_mesh(20, 20), {0, 0, 0})};
+    const FittedView fitted = fit_view(scene, sun, 8, 8);
+    EXPECT_EQ(fitted.nothing_casts, x > beside) << x;
+    if (!fitted.nothing_casts) {
+      EXPECT_NEAR(fitted.view.near_depth, 1e-5, 1e-10);
+    }
+  }
+}
+
 TEST(ViewFit, DiskCountsAsItsSquareAndAPointAsNothing) {
   Light light = plate_light();
   light.shape = DiskLight{1};

@@ -94,6 +94,20 @@ TEST(TradeoffSetting, ScalesLights) {
   EXPECT_EQ(half_extents(scaled_light(light, 0.5)), (std::array<double, 2>{0.5, 0.75}));
   light.shape = DiskLight{2};
   EXPECT_EQ(half_extents(scaled_light(light, 2)), (std::array<double, 2>{4, 4}));
+  light.shape = DistantLight{3};
+  EXPECT_EQ(std::get<DistantLight>(scaled_light(light, 2).shape).angle, 6);
+  EXPECT_EQ(largest_light_scale(light), 30);
+}
+
+TEST(SweepPlan, LeavesOutLightsThatAreTooLarge) {
+  const auto largest = [](const SweepPlan& plan) {
+    double scale = 0;
+    for (const SettingGroup& group : plan.groups) scale = std::max(scale, group.settings.front().light_scale);
+    return scale;
+  };
+  const TradeoffSetting centre = setting_of(BakeOptions{});
+  EXPECT_GT(largest(plan_sweep(centre, {}, Effort::normal)), 1);
+  EXPECT_EQ(largest(plan_sweep(centre, {}, Effort::normal, 1)), 1);
 }
 
 }  // namespace

@@ -71,9 +71,9 @@ TEST(JitteredGrid, SeedsDiffer) {
 
 TEST(LightPoint, RectFillsTheRect) {
   const Light light = light_at_origin(RectLight{4, 2});
-  EXPECT_EQ(light_point(light, {0, 0}), (std::array<double, 2>{-2, -1}));
-  EXPECT_EQ(light_point(light, {0.5, 0.5}), (std::array<double, 2>{0, 0}));
-  EXPECT_EQ(light_point(light, {0.75, 0.25}), (std::array<double, 2>{1, -0.5}));
+  EXPECT_EQ(light_point(light, {0, 0}), glm::dvec3(-2, -1, 0));
+  EXPECT_EQ(light_point(light, {0.5, 0.5}), glm::dvec3(0));
+  EXPECT_EQ(light_point(light, {0.75, 0.25}), glm::dvec3(1, -0.5, 0));
 }
 
 TEST(LightPoint, DiskKeepsAreas) {

@@ -14,7 +14,7 @@
 /// x and y are the world's.
 namespace pdsm {
 
-inline Light light_at_origin(std::variant<RectLight, DiskLight> shape) {
+inline Light light_at_origin(LightShape shape) {
   Light light;
   light.name = "key";
   light.shape = shape;

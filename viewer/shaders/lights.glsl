@@ -3,18 +3,22 @@
 struct ViewerLight {
   vec4 colour;     // linear RGB; w: number of its map, -1 without one
   vec4 direction;  // unit
-  vec4 points[9];  // equal areas of the emitter; [4] is the centre
+  vec4 points[9];  // equal areas of the emitter; [4] is the centre. w = 0: unit vectors to a distant light
 };
 layout(std140) uniform ViewerLights {
   ivec4 light_count;
   ViewerLight viewer_lights[64];
 };
 
+vec3 way_to_light(vec4 point, vec3 position) {
+  return point.xyz - point.w * position;
+}
+
 // As irradiance() in bake/evaluate/studio.h.
 float irradiance(int light, vec3 position, vec3 normal) {
   float sum = 0.0;
   for (int i = 0; i < 9; ++i) {
-    vec3 to_light = viewer_lights[light].points[i].xyz - position;
+    vec3 to_light = way_to_light(viewer_lights[light].points[i], position);
     float squared = max(dot(to_light, to_light), 1e-30);
     float at_surface = max(dot(normal, to_light), 0.0);
     float at_light = max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0);
@@ -25,7 +29,7 @@ float irradiance(int light, vec3 position, vec3 normal) {
 
 // What arrives at a point that faces every way: fog, particles.
 float irradiance_around(int light, vec3 position) {
-  vec3 to_light = viewer_lights[light].points[4].xyz - position;
+  vec3 to_light = way_to_light(viewer_lights[light].points[4], position);
   float squared = max(dot(to_light, to_light), 1e-30);
   return max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0) / (squared * sqrt(squared));
 }

@@ -51,6 +51,12 @@ Light disk_light(double radius) {
   return light;
 }
 
+Light distant_light(double angle) {
+  Light light = light_at_origin();
+  light.shape = DistantLight{angle};
+  return light;
+}
+
 void set_view(Light& light, double x, double y, double near_depth, double far_depth) {
   light.window = {-x, -y, x, y};
   light.near_depth = near_depth;

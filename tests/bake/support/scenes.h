@@ -20,6 +20,8 @@ inline constexpr double kWide = 1000;
 
 [[nodiscard]] Light rect_light(double width, double height);
 [[nodiscard]] Light disk_light(double radius);
+/// `angle`: degrees. Its space begins at the origin, too.
+[[nodiscard]] Light distant_light(double angle);
 /// Sets window [-x, -y, x, y] (tangents), near and far, so that a test knows its view.
 void set_view(Light& light, double x, double y, double near_depth, double far_depth);
 

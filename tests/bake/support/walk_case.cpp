@@ -25,13 +25,17 @@ float random_depth(Random& random, const WalkCase& c, const std::vector<float>& 
 
 }  // namespace
 
-MapGrid random_grid(Random& random) {
+MapGrid random_grid(Random& random, SamplePlane plane) {
   MapGrid grid;
   grid.texels = {random.count(1, 70), random.count(1, 9)};
   grid.ratio = {random_ratio(random), random_ratio(random)};
   grid.near_depth = random.pick({0.5, 1.0, 7.8});
   grid.far_depth = grid.near_depth * random.pick({1.01, 2.0, 10.0});
   grid.focus_depth = 2 / (1 / grid.near_depth + 1 / grid.far_depth);
+  if (plane == SamplePlane::distant) {
+    grid.projection = Projection::orthographic;
+    grid.focus_depth = (grid.near_depth + grid.far_depth) / 2;
+  }
   for (std::size_t a = 0; a < 2; ++a) {
     const double low = random.pick({-1.0, -0.3, 0.25}), size = random.uniform(0.05, 2);
     grid.origin[a] = low;
@@ -42,8 +46,10 @@ MapGrid random_grid(Random& random) {
 
 LightSample random_sample(Random& random, const MapGrid& grid, SamplePlane plane) {
   LightSample sample;
-  // The walk is |s| (1/near - 1/far) / pitch texels long: up to about 40.
-  const double unit = 1 / (1 / grid.near_depth - 1 / grid.far_depth);
+  // The walk is |s| (1/near - 1/far) / pitch texels long, |d| (far - near) / pitch under a distant light: up
+  // to about 40.
+  const double unit = plane == SamplePlane::distant ? 1 / (grid.far_depth - grid.near_depth)
+                                                    : 1 / (1 / grid.near_depth - 1 / grid.far_depth);
   const double length = random.pick({0.0, 0.3, 3.0, 40.0}) * random.uniform(0.5, 1);
   const double sign_x = random.pick({-1.0, 1.0}), sign_y = random.pick({-1.0, 1.0});
   const int direction = static_cast<int>(random.integer(0, 3));
@@ -51,6 +57,7 @@ LightSample random_sample(Random& random, const MapGrid& grid, SamplePlane plane
   const double y = direction == 0 ? 0 : direction == 3 ? random.uniform() : 1;
   sample.position = {sign_x * x * length * unit * grid.pitch[0], sign_y * y * length * unit * grid.pitch[1],
                      0};
+  if (plane == SamplePlane::distant) sample.position[2] = 1;
   if (plane == SamplePlane::tilted) sample.position[2] = random.uniform(-0.6, 0.6) * grid.near_depth;
   for (float& jitter : sample.jitter) {
     const float any = static_cast<float>(random.uniform(-0.5, 0.4999));
@@ -61,7 +68,7 @@ LightSample random_sample(Random& random, const MapGrid& grid, SamplePlane plane
 
 WalkCase random_walk_case(Random& random, SamplePlane plane) {
   WalkCase c;
-  c.grid = random_grid(random);
+  c.grid = random_grid(random, plane);
   c.sample = random_sample(random, c.grid, plane);
   const auto width = static_cast<std::int32_t>(c.grid.texels[0]),
              height = static_cast<std::int32_t>(c.grid.texels[1]);

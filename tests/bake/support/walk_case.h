@@ -22,9 +22,10 @@ struct WalkCase {
 };
 
 /// Which light samples are drawn.
-enum class SamplePlane { planar, tilted };
+enum class SamplePlane { planar, tilted, distant };
 
-[[nodiscard]] MapGrid random_grid(Random& random);
+/// Of a distant light: orthographic.
+[[nodiscard]] MapGrid random_grid(Random& random, SamplePlane plane = SamplePlane::planar);
 /// Offsets of zero, along an axis, along a diagonal, or any; jitter of zero, the extremes, or any.
 [[nodiscard]] LightSample random_sample(Random& random, const MapGrid& grid, SamplePlane plane);
 [[nodiscard]] WalkCase random_walk_case(Random& random, SamplePlane plane);

@@ -31,7 +31,7 @@ enum class Receivers {
 
 /// How the light is sampled; any number of samples.
 enum class PointSet {
-  lattice,  ///< Fibonacci lattice (rect) or sunflower (disk): i/N and the golden ratio
+  lattice,  ///< Fibonacci lattice (rect) or sunflower (disk, distant): i/N and the golden ratio
   jittered  ///< the thesis' stratified jitter
 };
 
@@ -58,7 +58,7 @@ struct BakeOptions {
   std::uint32_t threads = 0;                      ///< 0: all processors
   std::uint64_t seed = 0;
   /// Replaces `samples`, `points` and `seed` when not empty: any points in light space, also out of its
-  /// plane (z < near); equal weights.
+  /// plane (z < near), or for a distant light any directions of its rays (z = 1); equal weights.
   std::vector<LightSample> light_samples;
   std::string isa;         ///< Embree's: sse2, sse4.2, avx, avx2, avx512; empty: best
   std::uint32_t tile = 0;  ///< edge of a tile in texels, multiple of 64; 0: by cost
@@ -133,7 +133,8 @@ struct BakedMap {
 /// The decoded map of a bake.
 [[nodiscard]] PenumbraMap decode_blocks(const BakedMap& baked);
 
-/// The light samples of a bake: positions in light space, weights, jitter of the map grids. Pure.
+/// The light samples of a bake: positions in light space (of a distant light the directions of its rays,
+/// z = 1), weights, jitter of the map grids. Pure.
 [[nodiscard]] std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t count,
                                                           PointSet points, std::uint64_t seed);
 

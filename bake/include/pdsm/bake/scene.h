@@ -47,14 +47,26 @@ struct DiskLight {
   double radius = 0.5;  ///< metres; 0 makes a point
 };
 
-/// A one-sided planar area light.
+/// A light so far away that it is seen under the same angle from everywhere: the sun.
+struct DistantLight {
+  double angle = 0.53;  ///< full angular diameter, degrees, 0 .. kMostDistantAngle; 0 makes hard shadows
+};
+/// A wider disk would be a sky: towards its rim, tangents and with them walks grow beyond all bounds.
+inline constexpr double kMostDistantAngle = 90;
+
+using LightShape = std::variant<RectLight, DiskLight, DistantLight>;
+
+/// A one-sided planar area light, or a distant one.
 struct Light {
   std::string name;  ///< [A-Za-z0-9_-]+, unique in the scene
-  std::variant<RectLight, DiskLight> shape;
-  glm::dvec3 position{0};          ///< centre, metres
+  LightShape shape;
+  /// Centre, metres. Of a distant light: where light space begins, in front of all geometry
+  /// (place_distant_light()); near, far and window count from there, the light itself is nowhere.
+  glm::dvec3 position{0};
   glm::dvec3 direction{0, -1, 0};  ///< any length > 0
   std::optional<glm::dvec3> up;    ///< default [0,1,0], or [0,0,1] within 1 degree of the direction
-  std::optional<std::array<double, 4>> window;             ///< [x0,y0,x1,y1], tangents; default fitted
+  /// [x0,y0,x1,y1], tangents (metres for a distant light); default fitted
+  std::optional<std::array<double, 4>> window;
   std::optional<double> near_depth, far_depth;             ///< metres; default fitted
   std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
   std::optional<std::uint32_t> samples;
@@ -83,7 +95,18 @@ struct Scene {
 /// The inverse motion.
 [[nodiscard]] RigidTransform inverse(const RigidTransform& transform);
 
-/// Half extents of the light's shape along light x and y, metres.
+/// Whether the light's rays are parallel for each of its points.
+[[nodiscard]] inline bool is_distant(const Light& light) {
+  return std::holds_alternative<DistantLight>(light.shape);
+}
+
+/// Moves the origin of a distant light's space in front of all that casts or receives: on the middle of
+/// their bounds in light x and y, so that a scene far from the world's origin keeps its digits. Files'
+/// lights have been placed by read_scene(); other lights stay where they are. Throws as light_frame().
+void place_distant_light(const Scene& scene, Light& light);
+
+/// Half extents of the light's shape along light x and y, metres; of a distant light, the tangent of half
+/// its angle.
 [[nodiscard]] std::array<double, 2> half_extents(const Light& light);
 
 }  // namespace pdsm

@@ -19,12 +19,14 @@ struct FittedView {
 };
 
 /// Fits what is open.
-///   window  the slopes under which a caster can darken a receiver, cut with the receivers' own slopes, at
-///           most 120 degrees (|tangent| <= tan 60); a window that holds everything that is not lit
+///   window  the slopes (under a distant light, the places) at which a caster can darken a receiver, cut with
+///           the receivers' own; slopes at most 120 degrees (|tangent| <= tan 60); a window that holds
+///           everything that is not lit
 ///   near    depth of the nearest caster within the hull of light and window (not of the window alone);
-///           geometry at or behind 1e-4 of it never blocks
+///           geometry at or behind 1e-4 of it never blocks, but before a distant light all does
 ///   far     depth of the farthest receiver in the window (caster, if nothing receives)
-/// `width`, `height`: texels. Throws Error (input) when near >= far is asked for.
+/// `width`, `height`: texels. Throws Error (input) when near >= far is asked for, and for a distant light
+/// whose position is not in front of its casters.
 [[nodiscard]] FittedView fit_view(const Scene& scene, const Light& light, std::uint32_t width,
                                   std::uint32_t height);
 

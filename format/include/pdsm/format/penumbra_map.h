@@ -43,9 +43,10 @@ struct View {
 
 /// One point of the light that was sampled (perspective), or one direction (distant light).
 struct LightSample {
-  std::array<double, 3> position{0, 0, 0};  ///< metres, view space of view 0
-  std::array<float, 2> jitter{0, 0};        ///< shift of this sample's map grid in map texels, [-0.5, 0.5)
-  float weight = 1;                         ///< share of the light before normalising, >= 0
+  /// View space of view 0: metres, or under a distant light the direction of its rays, z = 1.
+  std::array<double, 3> position{0, 0, 0};
+  std::array<float, 2> jitter{0, 0};  ///< shift of this sample's map grid in map texels, [-0.5, 0.5)
+  float weight = 1;                   ///< share of the light before normalising, >= 0
 
   friend bool operator==(const LightSample&, const LightSample&) = default;
 };
