@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distant lights: shadows that are known in closed form, at the texels' own rays.
+//
+// A point at depth z sees the edge x = a of an occluder at depth h in the direction of tangent
+// q = (a - x) / (z - h) from its ray; the half plane beyond hides the directions beyond. As in
+// exact_truth_test.cpp, V may be off by what sampling misses, by edges that appear displaced by reach times
+// the map texel's pitch (in metres, at any depth), and by epsilon and V's extremes within delta.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <set>
+
+#include "pdsm/format/error.h"
+#include "support/baked_functions.h"
+#include "support/compare.h"
+#include "support/exact_truth.h"
+
+namespace pdsm::test {
+namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180;
+constexpr double kOccluder = 3, kFar = 8;
+
+double tangent_of(double angle) {
+  return std::tan(angle / 2 * kDegrees);
+}
+
+/// Share of the disk's solid angle beyond tangent q of a line: rings at angle t from its centre, of which the
+/// arc 2 acos(q / tan t) lies beyond. The midpoint rule errs by less than 1e-6.
+double disk_beyond(double angle, double q) {
+  if (q < 0) return 1 - disk_beyond(angle, -q);
+  const double most = angle / 2 * kDegrees, least = std::atan(q);
+  constexpr int kRings = 20000;
+  double beyond = 0;
+  for (int n = 0; n < kRings; ++n) {
+    const double t = least + (most - least) * (n + 0.5) / kRings;
+    if (least < most) beyond += 2 * std::acos(q / std::tan(t)) * std::sin(t) * (most - least) / kRings;
+  }
+  return beyond / (2 * std::numbers::pi * (1 - std::cos(most)));
+}
+
+struct Setup {
+  double angle;
+  Walk walk;
+  PointSet points;
+  double epsilon;
+};
+
+class DistantLightTruth : public testing::TestWithParam<Setup> {
+ protected:
+  static constexpr std::uint32_t kSamples = 256;
+
+  [[nodiscard]] static BakeOptions options(std::uint32_t width, std::uint32_t height,
+                                           std::uint32_t map_scale) {
+    BakeOptions o = small_options(width, height, kSamples);
+    o.map_width = width * map_scale;
+    o.map_height = height * map_scale;
+    o.walk = GetParam().walk;
+    o.points = GetParam().points;
+    o.epsilon = GetParam().epsilon;
+    return o;
+  }
+  [[nodiscard]] static double angle() { return GetParam().angle; }
+};
+
+TEST(DiskBeyond, IsTheCircularSegmentForSmallAngles) {
+  for (const double share : {-0.9, -0.3, 0.0, 0.5, 0.99}) {
+    const double tangent = tangent_of(0.53);
+    // Solid angle and tangents differ by tan^2 of the angle at the most.
+    EXPECT_NEAR(disk_beyond(0.53, share * tangent), disk_half_plane(tangent, share * tangent), 3e-5) << share;
+  }
+}
+
+/// The window is 6 penumbrae wide at the least, so that both its ends are seen.
+TEST_P(DistantLightTruth, HalfPlane) {
+  const double edge = 0.1, reach = 1.5 * tangent_of(angle()) * (kFar - kOccluder);
+  Light light = distant_light(angle());
+  light.window = {edge - reach, -0.5 * reach, edge + reach, 0.5 * reach};
+  light.near_depth = 2;
+  light.far_depth = kFar;
+  Scene scene;
+  add(scene, Plate{edge, -kWide, kWide, kWide, kOccluder});
+  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
+  const BakedFunctions baked(scene, light, options(33, 5, 4));
+  // The quad's corners lie on a grid of floats at 1000, but the edge itself is a float at 0.1.
+  const double displacement = texel_reach(GetParam().walk) * baked.map_pitch_x() + 0x1.0p-20;
+  const double sampling = sampling_tolerance(2 * edge_strata(kSamples), kSamples),
+               delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
+  int full = 0, part = 0, lit = 0;
+  for (std::uint32_t i = 0; i < 33; ++i) {
+    for (int n = 0; n <= 40; ++n) {
+      const double z = 2 + (kFar - 2) * n / 40 * 0.999, value = baked.value(i, 2, z);
+      const auto truth = [&](double depth, double shift) {
+        return disk_beyond(angle(), (edge - shift - baked.slope_x(i)) / (depth - kOccluder));
+      };
+      if (z <= kOccluder) {
+        ASSERT_EQ(value, 0) << z;
+        continue;
+      }
+      // Right behind the occluder, within the bias, shadow begins.
+      if (z <= kOccluder + baked.report().bias + 2 * delta) continue;
+      double low = 1, high = 0;
+      for (const double depth : {z - delta, z + delta}) {
+        low = std::min(low, truth(depth, -displacement));
+        high = std::max(high, truth(depth, displacement));
+      }
+      ASSERT_GE(value, low - sampling - epsilon) << "texel " << i << ", z " << z;
+      ASSERT_LE(value, high + sampling + epsilon) << "texel " << i << ", z " << z;
+      full += low == 1;
+      lit += high == 0;
+      part += low > 0.2 && high < 0.8;
+    }
+  }
+  EXPECT_GT(full, 100);
+  EXPECT_GT(lit, 100);
+  EXPECT_GT(part, 20);
+}
+
+/// On the axis behind a sphere: it hides the directions within asin(r / distance), all of the light up to the
+/// end of the umbra's cone.
+TEST_P(DistantLightTruth, SphereAgainstItsCone) {
+  const double half = angle() / 2 * kDegrees, r = 2.5 * std::sin(half), h = kOccluder;
+  const Mesh sphere = sphere_mesh({0, 0, h}, r, 5);
+  const double cut_off = r - inscribed_radius(sphere, {0, 0, h});
+  Scene scene;
+  add(scene, sphere);
+  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
+  Light light = distant_light(angle());
+  light.window = {-0.05 * r, -0.05 * r, 0.05 * r, 0.05 * r};
+  light.near_depth = 2;
+  light.far_depth = kFar;
+  const BakedFunctions baked(scene, light, options(3, 3, 24));
+  // Edges are displaced by a texel's diagonal; the slope bias allows for a PDSM texel, and delays the shadow
+  // of a ring: where it exceeds the way to the point, so at normals more than alpha off the ray.
+  const double moved = texel_reach(GetParam().walk) * baked.map_pitch_x() * std::sqrt(2.0);
+  const double bias_reach = moved + (24 - 0.5) * baked.map_pitch_x() * std::sqrt(2.0);
+  const double delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
+  const double sampling = sampling_tolerance(2 * outline_strata(kSamples), kSamples);
+  const auto truth = [&](double radius, double z) {
+    const double sine = std::clamp(radius / (z - h), 0.0, std::sin(half));
+    return (1 - std::sqrt(1 - sine * sine)) / (1 - std::cos(half));
+  };
+  int umbra = 0, beyond = 0;
+  for (double z = h + 1.2; z < kFar - 0.01; z += 0.2) {
+    const double alpha = std::atan((z - delta - h - r - baked.report().bias) / bias_reach);
+    const double ring = r * (1 - std::sin(alpha));
+    const double low = truth(r - cut_off - moved - ring, z + delta), high = truth(r + moved, z - delta);
+    const double value = baked.value(1, 1, z);
+    EXPECT_GE(value, low - sampling - epsilon) << z;
+    EXPECT_LE(value, high + sampling + epsilon) << z;
+    umbra += low > 0.99;
+    beyond += high < 0.6;
+  }
+  EXPECT_GT(umbra, 2);
+  EXPECT_GT(beyond, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, DistantLightTruth,
+                         testing::Values(Setup{0.53, Walk::exact, PointSet::lattice, 0.02},
+                                         Setup{0.53, Walk::midpoint, PointSet::jittered, 0},
+                                         Setup{20, Walk::exact, PointSet::jittered, 0},
+                                         Setup{20, Walk::midpoint, PointSet::lattice, 0.02},
+                                         Setup{60, Walk::exact, PointSet::lattice, 0},
+                                         Setup{60, Walk::exact, PointSet::jittered, 0.01}),
+                         [](const auto& setup) { return "Case" + std::to_string(setup.index); });
+
+/// A square plate, 2 x 2, three metres above a floor, both square to the sun; then moved.
+struct Placement {
+  const char* name;
+  glm::dvec3 direction;
+  glm::dvec3 offset;
+};
+
+class PlateShadow : public testing::TestWithParam<Placement> {};
+
+/// The umbra is narrower, umbra and penumbra together wider than the plate by 2 * height * tan. Lossless, so
+/// that both ends are those of the samples, which fill the light up to 1 / (2 N) of its area.
+TEST_P(PlateShadow, UmbraAndPenumbraAreAsWideAsTheHeightSays) {
+  constexpr double kHeight = 3, kAngle = 10;
+  Light light = distant_light(kAngle);
+  light.direction = GetParam().direction;
+  light.up.reset();
+  const RigidTransform to_world = inverse(light_frame(light));
+  const auto& r = to_world.rotation;
+  const glm::dmat4 placement =
+      glm::translate(glm::dmat4(1), GetParam().offset) *
+      glm::dmat4(r[0], r[3], r[6], 0, r[1], r[4], r[7], 0, r[2], r[5], r[8], 0, 0, 0, 0, 1);
+  Scene scene;
+  add(scene, Plate{-1, -1, 1, 1, 0}, Roles::caster);
+  add(scene, Plate{-4, -4, 4, 4, kHeight}, Roles::receiver);
+  for (Geometry& geometry : scene.geometry) geometry.local_to_world = placement;
+  place_distant_light(scene, light);
+  BakeOptions options = small_options(101, 101, 256);
+  options.map_width = options.map_height = 404;
+  options.epsilon = 0;
+  const BakedFunctions baked(scene, light, options);
+
+  const glm::dvec3 centre = apply(baked.view().world_to_view, glm::dvec3(placement[3]));
+  const double z = centre.z + kHeight * (1 - 1e-6), spread = kHeight * tangent_of(kAngle);
+  // A texel of a map either way; what moving by 1e6 costs in double is far below that.
+  const double displaced = texel_reach(Walk::exact) * baked.map_pitch_x() + 1e-6;
+  // Sunflower: the outermost of N points lie at sqrt(1 - 1 / (2 N)) of the radius; along an axis there is one
+  // within half of the angle between neighbours of the outermost turn, which are at the golden angle: cos >=
+  // 0.9.
+  const double inner = 0.9 * spread;
+  int umbra = 0, penumbra = 0, lit = 0;
+  for (std::uint32_t i = 0; i < 101; ++i) {
+    const double x = std::abs(baked.slope_x(i) - centre.x), value = baked.value(i, 50, z);
+    if (x < 1 - spread - displaced) {
+      EXPECT_EQ(value, 1) << x;
+      ++umbra;
+    } else if (x > 1 + spread + displaced) {
+      EXPECT_EQ(value, 0) << x;
+      ++lit;
+    } else if (x > 1 - inner + displaced && x < 1 + inner - displaced) {
+      EXPECT_GT(value, 0) << x;
+      EXPECT_LT(value, 1) << x;
+      ++penumbra;
+    }
+  }
+  // The window is fitted to the shadow, 2 (1 + spread) wide: what lies outside is lit by definition.
+  EXPECT_NEAR(baked.view().window[2] - baked.view().window[0], 2 * (1 + spread), 1e-4);
+  EXPECT_GT(umbra, 50);
+  EXPECT_GT(penumbra, 30);
+  EXPECT_EQ(lit, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EveryPlacement, PlateShadow,
+    testing::Values(Placement{"AtTheOrigin", {0, 0, 1}, {0, 0, 0}},
+                    Placement{"Slanted60", {std::sin(60 * kDegrees), -std::cos(60 * kDegrees), 0}, {1, 2, 3}},
+                    Placement{"Horizontal", {1, 0, 0.3}, {0, 0, 0}},
+                    Placement{"FromBelow", {0.2, 1, 0}, {5, 5, 5}},
+                    Placement{"FarAway", {0.3, -1, 0.4}, {1e6, -2e6, 3e6}}),
+    [](const auto& placement) { return placement.param.name; });
+
+TEST(DistantLight, WithoutAnAngleMakesHardShadows) {
+  Light light = distant_light(0);
+  light.window = {-2, -2, 2, 2};
+  light.near_depth = 2;
+  light.far_depth = kFar;
+  Scene scene;
+  add(scene, Plate{-1, -1, 1, 1, kOccluder}, Roles::caster);
+  add(scene, Plate{-9, -9, 9, 9, kFar}, Roles::receiver);
+  BakeOptions options = small_options(40, 40, 32);
+  options.map_width = options.map_height = 160;
+  const BakedFunctions baked(scene, light, options);
+  const double border = texel_reach(Walk::exact) * baked.map_pitch_x();
+  int dark = 0, lit = 0;
+  for (std::uint32_t j = 0; j < 40; ++j) {
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      const double out = std::max(std::abs(baked.slope_x(i)), std::abs(baked.slope_y(j))) - 1;
+      if (std::abs(out) <= border) continue;
+      EXPECT_EQ(baked.value(i, j, 7.9), out < 0 ? 1 : 0) << i << ", " << j;
+      ++(out < 0 ? dark : lit);
+    }
+  }
+  EXPECT_EQ(dark, 400);
+  EXPECT_EQ(lit, 1200);
+}
+
+TEST(DistantLight, OneSampleStandsForItsCentre) {
+  const auto samples = make_light_samples(distant_light(30), 1, PointSet::lattice, 0);
+  EXPECT_EQ(samples[0].position, (std::array<double, 3>{0, 0, 1}));
+}
+
+/// A plate beside the window, far in front: the sun's width carries its shadow in.
+TEST(DistantLight, CastersBesideTheWindowCount) {
+  Light light = distant_light(40);
+  light.window = {-1, -1, 1, 1};
+  Scene scene;
+  add(scene, Plate{1.5, -kWide, kWide, kWide, 2}, Roles::caster);
+  add(scene, Plate{-9, -9, 9, 9, kFar}, Roles::receiver);
+  const BakedFunctions baked(scene, light, small_options(32, 8, 256));
+  EXPECT_NEAR(baked.view().near_depth, 2, 1e-4);
+  EXPECT_FALSE(baked.baked().fitted.nothing_casts);
+  const double sampling = sampling_tolerance(2 * edge_strata(256), 256);
+  for (std::uint32_t i = 0; i < 32; ++i) {
+    const double q = (1.5 - baked.slope_x(i)) / 5.9, moved = 0.5 * baked.map_pitch_x() / 5.9;
+    EXPECT_GE(baked.value(i, 4, 7.9), disk_beyond(40, q + moved) - sampling - 0.02) << i;
+    EXPECT_LE(baked.value(i, 4, 7.9), disk_beyond(40, q - moved) + sampling + 0.02) << i;
+  }
+  EXPECT_GT(baked.value(31, 4, 7.9), 0.2);
+}
+
+TEST(DistantLight, CastersBeforeAGivenNearCount) {
+  Light light = distant_light(5);
+  light.window = {-0.5, -0.5, 0.5, 0.5};
+  light.near_depth = 4;
+  Scene scene;
+  add(scene, Plate{-3, -3, 3, 3, 1e-3}, Roles::caster);
+  add(scene, Plate{-9, -9, 9, 9, kFar}, Roles::receiver);
+  const BakedFunctions baked(scene, light, small_options(8, 8, 16));
+  EXPECT_EQ(baked.value(4, 4, 7.9), 1);
+}
+
+/// A floor that hides the sun below it darkens what stands on it; one that the rays run along, nothing.
+TEST(DistantLight, MayShineFromBelowOrAlongTheFloor) {
+  Scene scene;
+  add(scene, quad_mesh({-5, 0, -5}, {5, 0, -5}, {5, 0, 5}, {-5, 0, 5}));
+  add(scene, box_mesh({-1, 1, -1}, {1, 2, 1}));
+  for (const double height : {1.0, 0.0, -1.0}) {
+    Light light = distant_light(0.53);
+    light.direction = {1, height, 0};
+    light.up.reset();
+    place_distant_light(scene, light);
+    BakeOptions options = small_options(64, 64, 32);
+    options.receivers = Receivers::all;
+    const BakedFunctions baked(scene, light, options);
+    // Upstream and downstream of the box, at half its height.
+    const auto value_at = [&](const glm::dvec3& world) {
+      const glm::dvec3 p = apply(baked.view().world_to_view, world);
+      const auto& w = baked.view().window;
+      const double i = (p.x - w[0]) / (w[2] - w[0]) * 64, j = (p.y - w[1]) / (w[3] - w[1]) * 64;
+      if (i < 0 || i >= 64 || j < 0 || j >= 64) return 0.0;
+      return baked.value(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), p.z);
+    };
+    EXPECT_EQ(value_at({-1.5, 1.5, 0}), height > 0 ? 1 : 0) << height;
+    EXPECT_EQ(value_at({1.5, height < 0 ? 0.5 : 1.5, 0}), 1) << height;
+  }
+}
+
+TEST(DistantLight, GivesTheSameBytesForAnyThreadsAndTiles) {
+  Scene scene;
+  add(scene, sphere_mesh({0.3, -0.4, 4}, 0.7, 4));
+  add(scene, Plate{-1.5, -1.2, 0.1, 0.6, 3});
+  add(scene, Plate{-9, -9, 9, 9, 8});
+  Light light = distant_light(12);
+  light.direction = {0.5, 0.2, 1};
+  place_distant_light(scene, light);
+  for (const std::uint32_t map : {150U, 300U, 50U}) {
+    BakeOptions options = small_options(150, 150, 24);
+    options.map_width = options.map_height = map;
+    options.mip_levels = 3;
+    const BakedFunctions first(scene, light, options);
+    EXPECT_GT(first.vertex_count(), 1000U);
+    for (const std::uint32_t threads : {1U, 2U, 3U}) {
+      for (const std::uint32_t tile : {64U, 128U, 0U}) {
+        options.threads = threads;
+        options.tile = tile;
+        expect_same_bytes(first, {scene, light, options});
+      }
+    }
+  }
+}
+
+/// Rays that nothing can darken are left out, and only these: all others have the functions that an oracle
+/// without maps tells.
+TEST(DistantLight, LeavesOutOnlyRaysThatNothingCanDarken) {
+  Scene scene;
+  add(scene, Plate{-0.4, -0.4, 0.4, 0.4, 2}, Roles::caster);
+  add(scene, quad_mesh({-6, -6, 5}, {6, -6, 11}, {6, 6, 11}, {-6, 6, 5}));
+  Light light = distant_light(30);
+  light.window = {-5, -5, 5, 5};
+  BakeOptions options = small_options(200, 200, 64);
+  options.epsilon = 0;
+  const BakedFunctions baked(scene, light, options);
+  std::uint64_t walks = 0;
+  for (const ModelledFeature& feature : baked.report().modelled)
+    if (feature.feature == "rays that nothing can darken") walks = std::stoull(feature.saved);
+  EXPECT_GT(walks, 200U * 200 * 64 / 4);
+  // The oracle: each sample's line through the texel's point, in double, but where it passes within a texel
+  // of the plate's border.
+  for (std::uint32_t j = 0; j < 200; j += 3) {
+    for (std::uint32_t i = 0; i < 200; i += 3) {
+      const double x = baked.slope_x(i), y = baked.slope_y(j), z = 8 + 0.5 * x - 0.05;
+      std::uint32_t certain = 0, possible = 0;
+      for (const LightSample& sample : baked.map().samples) {
+        const double out =
+            std::max(std::abs(x - sample.position[0] * (z - 2)), std::abs(y - sample.position[1] * (z - 2))) -
+            0.4;
+        certain += out < -baked.map_pitch_x();
+        possible += out < baked.map_pitch_x();
+      }
+      const auto count = static_cast<std::uint32_t>(std::lround(baked.value(i, j, z) * 64));
+      EXPECT_GE(count, certain) << i << ", " << j;
+      EXPECT_LE(count, possible) << i << ", " << j;
+    }
+  }
+}
+
+/// A wall along the light's axis stands before the part of the sun that is behind it, on either side.
+TEST(DistantLight, AWallAlongTheRaysHidesTheSunBehindIt) {
+  Scene scene;
+  add(scene, quad_mesh({0, -kWide, 2}, {0, kWide, 2}, {0, kWide, kFar}, {0, -kWide, kFar}), Roles::caster);
+  add(scene, Plate{-9, -9, 9, 9, kFar}, Roles::receiver);
+  Light light = distant_light(40);
+  light.window = {-3, -3, 3, 3};
+  const BakedFunctions baked(scene, light, small_options(192, 192, 256));
+  const double sampling = sampling_tolerance(2 * edge_strata(256), 256), z = 7.9;
+  for (std::uint32_t i = 0; i < 192; i += 5) {
+    const double x = std::abs(baked.slope_x(i)), moved = 0.5 * baked.map_pitch_x();
+    if (x < 2 * moved) continue;
+    // The edge at depth 2; shadow of the wall's foot begins where the bias ends.
+    EXPECT_GE(baked.value(i, 96, z), disk_beyond(40, (x + moved) / (z - 2)) - sampling - 0.02) << i;
+    EXPECT_LE(baked.value(i, 96, z), disk_beyond(40, (x - moved) / (z - 2)) + sampling + 0.02) << i;
+  }
+}
+
+/// The default bias is a quarter of a map texel in metres, at any depth.
+TEST(DistantLight, HasABiasOfAQuarterOfAMapTexel) {
+  Scene scene;
+  add(scene, Plate{-1, -1, 1, 1, kOccluder}, Roles::caster);
+  add(scene, Plate{-9, -9, 9, 9, kFar});
+  Light light = distant_light(2);
+  light.window = {-2, -1, 2, 1};
+  const BakedFunctions baked(scene, light, small_options(40, 40, 4));
+  EXPECT_NEAR(baked.report().bias, 0.25 * 0.1, 1e-12);
+}
+
+/// For the scene's surfaces alone, functions stay in their tube wherever look-ups at a surface ask them:
+/// within a texel of their ray, where a slope of 2 lies up to two pitches before it.
+TEST(DistantLight, SurfacesAloneKeepTheirTube) {
+  Scene scene;
+  add(scene, Plate{-1, -1, 1, 1, 2}, Roles::caster);
+  add(scene, quad_mesh({-3, -3, 2.5}, {3, -3, 14.5}, {3, 3, 14.5}, {-3, 3, 2.5}), Roles::receiver);
+  add(scene, quad_mesh({-3, -3, 2.38}, {3, -3, 14.38}, {3, 3, 14.38}, {-3, 3, 2.38}), Roles::caster);
+  Light light = distant_light(20);
+  light.window = {-2.5, -2.5, 2.5, 2.5};
+  BakeOptions options = small_options(40, 40, 64);
+  options.epsilon = 0;
+  const BakedFunctions exact(scene, light, options);
+  options.epsilon = 0.02;
+  options.receivers = Receivers::surfaces;
+  const BakedFunctions baked(scene, light, options);
+  ASSERT_LT(baked.vertex_count(), exact.vertex_count());
+  // The exact one is so to within delta, too.
+  const double delta = 2 * baked.report().depth_tolerance, rise = 2 * 5.0 / 40;
+  for (std::uint32_t j = 0; j < 40; ++j) {
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      for (const double share : {-0.9, -0.5, -0.4}) {
+        const double z = 8.5 + 2 * exact.slope_x(i) + share * rise;
+        double low = 1, high = 0;
+        for (int n = -16; n <= 16; ++n) {
+          low = std::min(low, exact.value(i, j, z + n / 16.0 * delta));
+          high = std::max(high, exact.value(i, j, z + n / 16.0 * delta));
+        }
+        // Between two of these depths an event or two may pass unseen.
+        ASSERT_GE(baked.value(i, j, z), low - 0.02 - 2.0 / 64) << i << ", " << j;
+        ASSERT_LE(baked.value(i, j, z), high + 0.02 + 2.0 / 64) << i << ", " << j;
+      }
+    }
+  }
+}
+
+struct Tilt {
+  double degrees;
+  Walk walk;
+};
+
+class TiltedPlane : public testing::TestWithParam<Tilt> {};
+
+/// A plane that the whole sun shines on is lit at any tilt, whatever the maps: the sun's rays are within 5
+/// degrees of the axis.
+TEST_P(TiltedPlane, HoldsNoShadowOfItsOwn) {
+  const double slope = std::tan(GetParam().degrees * kDegrees);
+  Light light = distant_light(10);
+  light.window = {-0.02, -0.02, 0.02, 0.02};
+  light.near_depth = 5;
+  light.far_depth = 12;
+  Scene scene;
+  add(scene, quad_mesh({-0.1, -0.1, 8 - 0.1 * slope}, {0.1, -0.1, 8 + 0.1 * slope},
+                       {0.1, 0.1, 8 + 0.1 * slope}, {-0.1, 0.1, 8 - 0.1 * slope}));
+  for (const double ratio : {1.0, 3.0, 0.5}) {
+    BakeOptions options = small_options(24, 24, 25);
+    options.map_width = options.map_height = static_cast<std::uint32_t>(24 * ratio);
+    options.walk = GetParam().walk;
+    options.bias = 1e-9;
+    options.receivers = Receivers::all;
+    const BakedFunctions baked(scene, light, options);
+    for (std::uint32_t j = 0; j < 24; ++j)
+      for (std::uint32_t i = 0; i < 24; ++i)
+        ASSERT_EQ(baked.value(i, j, 8 + slope * baked.slope_x(i)), 0) << i << ", " << j << ", " << ratio;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTilt, TiltedPlane,
+                         testing::Values(Tilt{0, Walk::exact}, Tilt{40, Walk::midpoint},
+                                         Tilt{40, Walk::exact}, Tilt{80, Walk::exact},
+                                         Tilt{80, Walk::midpoint}),
+                         [](const auto& tilt) { return "Case" + std::to_string(tilt.index); });
+
+TEST(DistantLight, RefusesWhatItCannotBake) {
+  Scene scene;
+  add(scene, Plate{-1, -1, 1, 1, kOccluder});
+  add(scene, Plate{-9, -9, 9, 9, kFar});
+  const auto fault = [&](const Light& light, const BakeOptions& options) -> std::string {
+    try {
+      (void)bake(scene, light, options);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const BakeOptions options = small_options(8, 8, 4);
+  for (const double angle : {-1.0, 90.1, std::nan("")})
+    EXPECT_EQ(fault(distant_light(angle), options), "test.angle: must be from 0 to 90 degrees") << angle;
+  Light behind = distant_light(1);
+  behind.position = {0, 0, 5};
+  EXPECT_NE(fault(behind, options).find("test.position: a distant light's space must begin in front"),
+            std::string::npos);
+  place_distant_light(scene, behind);
+  EXPECT_EQ(fault(behind, options), "");
+  BakeOptions own = options;
+  own.light_samples = {LightSample{}};
+  EXPECT_NE(fault(distant_light(1), own).find("must be finite directions with z = 1"), std::string::npos);
+  Light wide = distant_light(90);
+  wide.window = {-1e-4, -1e-4, 1e-4, 1e-4};
+  BakeOptions fine = options;
+  fine.map_width = fine.map_height = 16 * 64;
+  EXPECT_NE(fault(wide, fine).find("walks would cross"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pdsm::test
