@@ -69,6 +69,8 @@ double time_trace(const BakeJob& job) {
 void run(int argc, char** argv) {
   const Scene scene = read_scene(argv[1]);
   const Light& light = scene.lights.front();
+  // What it compares with traces from a point.
+  if (is_distant(light)) throw Error(Failure::usage, "SCENE", "the first light must not be distant");
   const std::uint32_t runs = bench::count_argument(argc, argv, 2, 5);
   BakeOptions options;
   options.width = options.height = bench::count_argument(argc, argv, 3, options.width);

@@ -203,6 +203,9 @@ double mean_of_target(std::uint32_t edge) {
 int measure(const std::string& scene_path, const std::string& map_path, std::uint32_t edge, int runs) {
   const Scene scene = read_scene(scene_path);
   const PenumbraMap map = read_map(map_path);
+  // The classic techniques look from a point.
+  if (is_distant(scene.lights.front()))
+    throw Error(Failure::usage, "SCENE", "the first light must not be distant");
   const PenumbraMap* const maps[] = {&map};
   const View& view = map.views[0];
   const PictureScene picture(scene);
