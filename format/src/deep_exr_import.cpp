@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bytes.h"
+#include "deep_exr_headers.h"
 #include "deep_exr_parts.h"
 #include "mapped_file.h"
 #include "pdsm/format/deep_exr.h"
@@ -25,9 +26,6 @@
 
 namespace pdsm {
 namespace {
-
-/// zlib can't make more than this of a byte; claims beyond are lies.
-constexpr std::uint64_t kMaxExpansion = 1032;
 
 /// Bytes in memory as OpenEXR reads them. Running past the end is an exception.
 class BytesStream : public Imf::IStream {
@@ -61,7 +59,6 @@ class DeepImporter {
   [[noreturn]] void fail(const std::string& field, const std::string& reason) const {
     throw Error(Failure::input, path_ + ":" + field, reason);
   }
-  void check_headers() const;
   [[nodiscard]] PenumbraMap read_shell(const Imf::MultiPartInputFile& file) const;
   void check_part(const Imf::MultiPartInputFile& file, int part, const std::string& type,
                   const FunctionImage& image, std::initializer_list<const char*> channels) const;
@@ -78,39 +75,6 @@ class DeepImporter {
 
 std::string part_field(int part) {
   return "part " + std::to_string(part);
-}
-
-/// Length of the zero-terminated name at `reader`, skipped; empty where it does not end.
-std::optional<std::size_t> skip_name(ByteReader& reader) {
-  for (std::size_t length = 0; reader.remaining() > 0; ++length)
-    if (reader.value<char>() == '\0') return length;
-  return std::nullopt;
-}
-
-/// Skips one header; false where it has no attributes, which ends the headers of a multi-part file. Empty
-/// where it runs past the end of the file.
-std::optional<bool> skip_header(ByteReader& reader) {
-  for (bool any = false;; any = true) {
-    const auto name = skip_name(reader);
-    if (!name) return std::nullopt;
-    if (*name == 0) return any;
-    const auto type = skip_name(reader);
-    const auto size = reader.value<std::uint32_t>();
-    if (!type || !reader.ok() || size > reader.remaining()) return std::nullopt;
-    reader.skip(size);
-  }
-}
-
-/// OpenEXR allocates what an attribute claims to take before it reads it. So the sizes of all attributes
-/// are held against the file first.
-void DeepImporter::check_headers() const {
-  constexpr std::uint32_t kExrMagic = 20000630, kMultiPartFlag = 0x1000;
-  ByteReader reader(bytes_);
-  if (reader.value<std::uint32_t>() != kExrMagic) fail("magic", "not an OpenEXR file");
-  const bool is_multi_part = (reader.value<std::uint32_t>() & kMultiPartFlag) != 0;
-  auto more = skip_header(reader);
-  while (more && *more && is_multi_part) more = skip_header(reader);
-  if (!more) fail("header", "an attribute ends behind the file");
 }
 
 /// Everything but the functions, checked as a map file is.
@@ -198,7 +162,8 @@ void DeepImporter::read_functions(Imf::MultiPartInputFile& file, int part_index,
     const std::uint32_t* row_counts = counts.data() + row * width;
     std::uint64_t total = 0;
     for (std::size_t x = 0; x < width; ++x) total += row_counts[x];
-    vertices.assign(total, {});
+    // One to spare: pointers go behind the last vertex, and a row may have none.
+    vertices.assign(total + 1, {});
     auto* sample = reinterpret_cast<char*>(vertices.data());
     for (std::size_t x = 0; x < width; sample += row_counts[x++] * sizeof(FunctionVertex)) {
       pointers[0][x] = sample + offsetof(FunctionVertex, depth);
@@ -229,7 +194,7 @@ void DeepImporter::read_domain_ends(Imf::MultiPartInputFile& file, int part_inde
 }
 
 PenumbraMap DeepImporter::import() {
-  check_headers();
+  if (const auto fault = find_exr_header_fault(bytes_)) fail(fault->field, fault->reason);
   BytesStream stream(bytes_, path_.c_str());
   Imf::MultiPartInputFile file(stream, 0, false);
   PenumbraMap map = read_shell(file);
@@ -249,10 +214,11 @@ PenumbraMap DeepImporter::import() {
   return map;
 }
 
-/// A library's message on one line.
+/// A library's message on one line. It may quote names from the file, with any bytes in them.
 std::string one_line(const char* message) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
   std::string line = message;
-  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::replace_if(line.begin(), line.end(), is_control, ' ');
   return line;
 }
 

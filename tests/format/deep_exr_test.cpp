@@ -157,22 +157,57 @@ TEST(DeepExr, RefusesWhatIsNoExport) {
   EXPECT_THROW(static_cast<void>(import_deep_exr(folder.path() / "missing")), Error);
 }
 
-/// An attribute that claims 2 GB is refused before anybody allocates it.
-TEST(DeepExr, AttributeSizesAreHeldAgainstTheFile) {
+/// Where the attribute begins whose name and type, each with its zero, are `name_and_type`.
+std::vector<std::byte>::iterator find_attribute(std::vector<std::byte>& bytes,
+                                                const std::string& name_and_type) {
+  return std::search(bytes.begin(), bytes.end(), name_and_type.begin(), name_and_type.end(),
+                     [](std::byte a, char b) { return a == static_cast<std::byte>(b); });
+}
+
+/// Expects a file whose attribute states another size to be refused before OpenEXR reads it.
+void expect_size_refused(const std::string& name_and_type, std::uint32_t size) {
+  SCOPED_TRACE(name_and_type);
   const ScratchFolder folder;
   auto bytes = small_exr(folder.path());
-  const std::string needle("pdsmMap\0string\0", 15);
-  const auto found = std::search(bytes.begin(), bytes.end(), needle.begin(), needle.end(),
-                                 [](std::byte a, char b) { return a == static_cast<std::byte>(b); });
+  const auto found = find_attribute(bytes, name_and_type);
   ASSERT_NE(found, bytes.end());
-  const std::uint32_t huge = 0x7FFFFFF0;
-  std::memcpy(&*(found + 15), &huge, 4);
-  testing::put_file(folder.path() / "huge.exr", bytes);
+  std::memcpy(&*found + name_and_type.size(), &size, sizeof(size));
+  testing::put_file(folder.path() / "size.exr", bytes);
   try {
-    static_cast<void>(import_deep_exr(folder.path() / "huge.exr"));
+    static_cast<void>(import_deep_exr(folder.path() / "size.exr"));
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("an attribute ends behind the file"), std::string::npos);
+  }
+}
+
+/// An attribute that claims 2 GB is refused before anybody allocates it.
+TEST(DeepExr, AttributeSizesAreHeldAgainstTheFile) {
+  expect_size_refused(std::string("pdsmMap\0string\0", 15), 0x7FFFFFF0);
+}
+
+/// OpenEXR reads these by their types, whatever size they state, and what follows then from elsewhere.
+TEST(DeepExr, AttributeSizesAreHeldAgainstTheirTypes) {
+  expect_size_refused(std::string("channels\0chlist\0", 16), 20);
+  expect_size_refused(std::string("channels\0chlist\0", 16), 200);
+  expect_size_refused(std::string("dataWindow\0box2i\0", 17), 12);
+  expect_size_refused(std::string("lineOrder\0lineOrder\0", 20), 2);
+}
+
+/// A channel's name as OpenEXR quotes it; it is followed by the channel's type, which is made an unknown one.
+TEST(DeepExr, NamesOfTheFileDoNotBreakTheMessage) {
+  const ScratchFolder folder;
+  auto bytes = small_exr(folder.path());
+  const auto found = find_attribute(bytes, std::string("pdsm.depth\0", 11));
+  ASSERT_NE(found, bytes.end());
+  *(found + 4) = static_cast<std::byte>('\r');
+  *(found + 11) = std::byte{77};
+  testing::put_file(folder.path() / "name.exr", bytes);
+  try {
+    static_cast<void>(import_deep_exr(folder.path() / "name.exr"));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("pdsm depth"), std::string::npos) << error.what();
   }
 }
 
