@@ -105,6 +105,10 @@ Verdict check_view(const View& view, const VertexCoding& coding) {
   if (!all_finite(window) || !(window[0] < window[2]) || !(window[1] < window[3]) ||
       !std::isfinite(window[2] - window[0]) || !std::isfinite(window[3] - window[1]))
     return violation("a finite window, x0 < x1, y0 < y1");
+  // A look-up multiplies by these; an infinite one times a distance of 0 would be no position.
+  if (!std::isfinite(view.width / (window[2] - window[0])) ||
+      !std::isfinite(view.height / (window[3] - window[1])))
+    return violation("a window wide and high enough for finite texels per unit");
   const double near_depth = view.near_depth, far_depth = view.far_depth;
   if (!std::isfinite(near_depth) || !std::isfinite(far_depth) || !(near_depth < far_depth) ||
       !std::isfinite(far_depth * 0x1p32) || !std::isfinite(near_depth * 0x1p32))

@@ -78,6 +78,9 @@ TEST(Invariants, WindowAndSize) {
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].window = {0, 0, 0, 1}; });
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].window = {0, 1, 1, 0}; });
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].window = {-1e308, 0, 1e308, 1}; });
+  // Texels so narrow that their number per unit is infinite.
+  expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].window = {0, 0, 0x1p-1073, 1}; });
+  expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].window = {0, 0, 1, 0x1p-1073}; });
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].width = 0; });
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].height = (1U << 20) + 1; });
   expect_fault("views[0]", [](PenumbraMap& map) { map.views[0].projection = static_cast<Projection>(2); });
