@@ -86,7 +86,10 @@ void MapBlocks::take_part(std::uint32_t level, std::uint32_t bx, std::uint32_t b
   const std::vector<FunctionBlock> parts = std::move(open.parts);
   const auto [width, height] =
       block_extent(image.width, image.height, index % image.across, index / image.across);
-  const auto encode = [&](const FunctionBlock& whole) { return encode_block(coding_, width, height, whole); };
+  // Named anew: clang 14 can't capture structured bindings.
+  const auto encode = [&, across = width, up = height](const FunctionBlock& whole) {
+    return encode_block(coding_, across, up, whole);
+  };
   encoded_[level][index] =
       parts.size() == 1
           ? encode(parts.front())
