@@ -22,8 +22,8 @@
 /// ray, translated.
 ///
 /// Under a distant light, rays are parallel, P(z) = (u, z) with u in metres, and a sample is the direction
-/// (d, 1) of its light. It sees P through the point a(z) = u + d (F - z) of the focus plane, so with w = F -
-/// z
+/// (d, 1) of its light. It sees P through the point a(z) = u + d (F - z) of the focus plane, so that with
+/// w = F - z
 ///
 ///   a(w) = u  +  w d
 ///
