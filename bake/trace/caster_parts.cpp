@@ -12,6 +12,7 @@ namespace {
 constexpr float kFarthest = 0x1p15F;
 /// The same in any sample's map: 1/16 of a texel, for what is so close to the light that it hides half of it.
 constexpr float kFarthestMoved = 0x1p18F;
+
 }  // namespace
 
 CasterProjector::CasterProjector(const LightSpaceScene& scene, const MapGrid& grid, const LightBounds& light,

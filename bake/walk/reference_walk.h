@@ -9,8 +9,8 @@
 #include "pdsm/bake/bake.h"
 #include "walk/ray_path.h"
 
-/// Algorithm 3.1 of the thesis, written as plainly as it can be: the oracle of the tests and the baseline
-/// of the benchmarks. Nothing of it is used by a bake, and it uses nothing of the walks but the path's law.
+/// Algorithm 3.1 of the thesis, written as plainly as it can be: the oracle of the tests. Nothing of it is
+/// used by a bake, and it uses nothing of the walks but the path's law.
 namespace pdsm {
 
 /// Depth of the nearest occluder at a map texel.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "support/projection_grid.h"
 #include "support/random.h"
 #include "trace/hidden_chunks.h"
 #include "trace/raster_map.h"
@@ -15,23 +16,16 @@
 namespace pdsm {
 namespace {
 
+using test::kFar;
+using test::kLight;
+using test::kNear;
+using test::make_grid;
 using test::Random;
 
 constexpr std::int32_t kTexels = 96;
-constexpr double kNear = 2, kFar = 6;
-constexpr LightBounds kLight{{-0.5, -0.5}, {0.5, 0.5}};
-
-MapGrid make_grid() {
-  View view;
-  view.window = {-0.5, -0.5, 0.5, 0.5};
-  view.width = view.height = kTexels;
-  view.near_depth = kNear;
-  view.far_depth = kFar;
-  return make_map_grid(view, kTexels, kTexels);
-}
 
 CasterTriangles project(const LightSpaceScene& scene, std::uint32_t threads) {
-  return project_casters(scene, make_grid(), kLight, kEmitterShare * kNear, threads);
+  return project_casters(scene, make_grid(kTexels), kLight, kEmitterShare * kNear, threads);
 }
 
 /// Triangles of any winding, `size` of the window wide.

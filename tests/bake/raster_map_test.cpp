@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "support/projection_grid.h"
 #include "support/random.h"
 #include "trace/caster_volume.h"
 #include "trace/map_rays.h"
@@ -16,20 +17,13 @@
 namespace pdsm {
 namespace {
 
+using test::kFar;
+using test::kLight;
+using test::kNear;
+using test::make_grid;
 using test::Random;
 
 constexpr std::int32_t kTexels = 48;
-constexpr double kNear = 2, kFar = 6;
-constexpr LightBounds kLight{{-0.5, -0.5}, {0.5, 0.5}};
-
-MapGrid make_grid() {
-  View view;
-  view.window = {-0.5, -0.5, 0.5, 0.5};
-  view.width = view.height = kTexels;
-  view.near_depth = kNear;
-  view.far_depth = kFar;
-  return make_map_grid(view, kTexels, kTexels);
-}
 
 /// A sheet of cells x cells bent quads across far more than all samples' maps. Its seen places are whole
 /// multiples of a texel from the centre where `wild` is 0, and edges run through texel centres.
@@ -76,7 +70,7 @@ struct Maps {
 
 Maps make_maps(const LightSpaceScene& scene, const LightSample& sample,
                std::span<const std::uint32_t> left_out = {}) {
-  const MapGrid grid = make_grid();
+  const MapGrid grid = make_grid(kTexels);
   const EmbreeScene embree(scene, choose_isa(""), 1);
   const CasterTriangles casters = project_casters(scene, grid, kLight, first_caster_depth(grid, sample), 2);
   EXPECT_FALSE(casters.empty());
@@ -165,7 +159,7 @@ LightSpaceMesh make_wide_fan(Random& random, int count) {
 
 TEST(RasterMap, CutsWhatReachesFarBeside) {
   Random random(85);
-  const MapGrid grid = make_grid();
+  const MapGrid grid = make_grid(kTexels);
   for (int n = 0; n < 60; ++n) {
     LightSpaceScene scene;
     scene.meshes.push_back(make_wide_fan(random, random.pick({3, 5, 24, 400})));
@@ -187,7 +181,7 @@ TEST(RasterMap, CutsWhatReachesFarBeside) {
 /// Neighbours see an edge from its two ends, and have to cut it at one point.
 TEST(RasterMap, CutsAnEdgeTheSameFromBothEnds) {
   Random random(88);
-  const CasterVolume volume(make_grid(), kLight, kEmitterShare * kNear);
+  const CasterVolume volume(make_grid(kTexels), kLight, kEmitterShare * kNear);
   const auto corners_of = [&](const std::array<glm::dvec3, 3>& triangle) {
     const CasterPolygon polygon = volume.clip(triangle);
     std::set<std::array<double, 3>> corners;
@@ -224,7 +218,7 @@ TEST(RasterMap, KeepsOnlyWhatSomeMapHolds) {
                       {-1, -1, -1}, {1, -1, -1e-3F}, {0, 1, -0.5F}};  // behind the light
   beside.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   const auto project = [](const LightSpaceScene& scene) {
-    return project_casters(scene, make_grid(), kLight, kEmitterShare * kNear, 2);
+    return project_casters(scene, make_grid(kTexels), kLight, kEmitterShare * kNear, 2);
   };
   const CasterTriangles one = project(alone), two = project(both);
   EXPECT_FALSE(one.empty());
@@ -236,7 +230,7 @@ TEST(RasterMap, KeepsOnlyWhatSomeMapHolds) {
 /// Triangles that only some samples see, at the borders of their maps, are kept.
 TEST(RasterMap, KeepsWhatAnySampleSees) {
   Random random(87);
-  const MapGrid grid = make_grid();
+  const MapGrid grid = make_grid(kTexels);
   for (int n = 0; n < 400; ++n) {
     const double z = random.pick({1e-2, 0.3, 1.5, 2.0, 3.0, 5.9, 50.0});
     LightSample sample = make_sample(random, false);
@@ -260,7 +254,7 @@ TEST(RasterMap, PassesOverWhatIsLeftOut) {
   LightSpaceScene far_alone, both;
   far_alone.meshes.push_back(make_sheet(random, 20, 5, 1));
   both.meshes = {make_sheet(random, 3, 3, 1), far_alone.meshes[0]};
-  const CasterTriangles casters = project_casters(both, make_grid(), kLight, kEmitterShare * kNear, 1);
+  const CasterTriangles casters = project_casters(both, make_grid(kTexels), kLight, kEmitterShare * kNear, 1);
   std::vector<std::uint32_t> near;
   for (std::uint32_t slot = 0; slot < casters.surfaces.size(); ++slot)
     if (casters.surfaces[casters.ids[slot]].mesh == 0) near.push_back(slot);

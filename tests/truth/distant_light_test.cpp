@@ -180,15 +180,6 @@ Scene plate_over_floor() {
   return scene;
 }
 
-BakeOptions small_options() {
-  BakeOptions options;
-  options.samples = 64;
-  options.width = 48;
-  options.height = 40;
-  options.threads = 2;
-  return options;
-}
-
 double hidden_samples(const PenumbraMap& map, const glm::dvec3& p) {
   double hidden = 0;
   for (const LightSample& s : map.samples) {

@@ -32,15 +32,6 @@ Scene plate_over_floor() {
   return scene;
 }
 
-BakeOptions small_options() {
-  BakeOptions options;
-  options.samples = 64;
-  options.width = 48;
-  options.height = 40;
-  options.threads = 2;
-  return options;
-}
-
 PenumbraMap bake_map(const Scene& scene, const BakeOptions& options) {
   return decode_blocks(bake(scene, scene.lights[0], options));
 }

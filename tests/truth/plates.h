@@ -8,11 +8,22 @@
 #include <utility>
 #include <vector>
 
+#include "pdsm/bake/bake.h"
 #include "pdsm/bake/scene.h"
 
 /// Scenes of which the truth is known, made in light space: the light at the origin shines along +z, and its
 /// x and y are the world's.
 namespace pdsm {
+
+/// A bake of a second.
+inline BakeOptions small_options() {
+  BakeOptions options;
+  options.samples = 64;
+  options.width = 48;
+  options.height = 40;
+  options.threads = 2;
+  return options;
+}
 
 inline Light light_at_origin(LightShape shape) {
   Light light;
