@@ -122,7 +122,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   light_space = to_light_space(scene, fitted.view.world_to_view);
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh = omp_get_wtime() - start;
-  if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias);
+  if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias, options.threads);
   if (has_shadows() && shift_law() && grid.perspective())
     casters = project_casters(light_space, grid, bound_samples(samples),
                               first_caster_depth(grid, samples.front()), options.threads);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tile/modelled_features.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace pdsm {
@@ -60,9 +63,10 @@ void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));
   if (casts)
-    list.either(job.slope_limit.thin_gaps, "bias of gentle slopes before receivers",
-                "receivers lie close behind surfaces that slope gently",
-                "hardly any receiver lies so close behind", counted(samples, "maps of second rays"));
+    list.either(
+        std::isfinite(job.slope_limit.from), "bias of slopes before receivers",
+        fmt::format("receivers lie close behind slopes that add more than {:.3g} m", job.slope_limit.from),
+        "hardly any receiver lies so close behind a slope", counted(samples, "maps of second rays"));
   list.either(!job.shift_law(), "general scan conversion", "light samples lie out of the light's plane",
               parallel ? "the light's rays are parallel: one walk serves all rays"
                        : "all light samples lie in the light's plane: one walk serves all rays",

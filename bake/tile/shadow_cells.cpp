@@ -2,8 +2,10 @@
 #include "tile/shadow_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace pdsm {
 namespace {
@@ -12,11 +14,38 @@ namespace {
 constexpr double kTexelReach = 1.01;
 /// From so many cells on, it pays to ask for each cell whether the triangle's plane is crossed at all.
 constexpr std::int64_t kManyCells = 8;
+/// Triangles that follow each other in a mesh and are asked about together first.
+constexpr std::size_t kRun = 64;
 
 /// A triangle in front of clip_depth: 3 or 4 corners, or none.
 struct ClippedTriangle {
   glm::dvec3 corner[4];
   int count = 0;
+
+  [[nodiscard]] std::span<const glm::dvec3> corners() const {
+    return {corner, static_cast<std::size_t>(count)};
+  }
+};
+
+/// A box around triangles, in front of clip_depth.
+struct RunBox {
+  glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+
+  void include(const LightSpaceMesh& mesh, const glm::uvec3& t) {
+    for (const std::uint32_t v : {t.x, t.y, t.z}) {
+      low = glm::min(low, mesh.positions[v]);
+      high = glm::max(high, mesh.positions[v]);
+    }
+  }
+  /// None where all of it lies before clip_depth.
+  [[nodiscard]] bool clip(double clip_depth, std::array<glm::dvec3, 8>& corners) const {
+    if (!(static_cast<double>(high.z) >= clip_depth)) return false;
+    const double first = std::max(static_cast<double>(low.z), clip_depth);
+    for (std::size_t n = 0; n < 8; ++n)
+      corners[n] = {(n & 1U) != 0 ? high.x : low.x, (n & 2U) != 0 ? high.y : low.y,
+                    (n & 4U) != 0 ? static_cast<double>(high.z) : first};
+    return true;
+  }
 };
 
 ClippedTriangle clip_front(const LightSpaceMesh& mesh, const glm::uvec3& t, double clip_depth) {
@@ -98,10 +127,35 @@ class CellMarker {
     {
       std::vector<std::uint8_t> dark(cell_count(), 0);
 #pragma omp for schedule(static) nowait
-      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mark_triangle(mesh, mesh.triangles[t], dark);
+      for (std::size_t t = 0; t < mesh.triangles.size(); t += kRun)
+        mark_run(mesh, std::span(mesh.triangles).subspan(t, std::min(kRun, mesh.triangles.size() - t)), dark);
 #pragma omp critical
       for (std::size_t c = 0; c < dark.size(); ++c) cells_.dark[c] |= dark[c];
     }
+  }
+
+  /// Neighbours reach the same few cells: most runs find these marked.
+  void mark_run(const LightSpaceMesh& mesh, std::span<const glm::uvec3> run,
+                std::vector<std::uint8_t>& dark) const {
+    if (changes_nothing(mesh, run, dark)) return;
+    for (const glm::uvec3& t : run) mark_triangle(mesh, t, dark);
+  }
+
+  [[nodiscard]] bool changes_nothing(const LightSpaceMesh& mesh, std::span<const glm::uvec3> run,
+                                     const std::vector<std::uint8_t>& dark) const {
+    RunBox box;
+    for (const glm::uvec3& t : run) box.include(mesh, t);
+    std::array<glm::dvec3, 8> corners;
+    if (!box.clip(input_.clip_depth, corners)) return true;
+    const double first_depth = corners[0].z;
+    const CellRange range = find_range(corners, first_depth);
+    for (std::int64_t y = range.y0; y < range.y1; ++y) {
+      for (std::int64_t x = range.x0; x < range.x1; ++x) {
+        const auto cell = static_cast<std::size_t>(y * cells_.across + x);
+        if (dark[cell] == 0 && first_depth < static_cast<double>(last_end_[cell])) return false;
+      }
+    }
+    return true;
   }
 
   void mark_triangle(const LightSpaceMesh& mesh, const glm::uvec3& t, std::vector<std::uint8_t>& dark) const {
@@ -119,7 +173,7 @@ class CellMarker {
     if (triangle.count == 0) return;
     double first_depth = std::numeric_limits<double>::infinity();
     for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
-    const CellRange range = find_range(triangle, first_depth);
+    const CellRange range = find_range(triangle.corners(), first_depth);
     const bool are_many = range.count() >= kManyCells;
     for (std::int64_t y = range.y0; y < range.y1; ++y) {
       for (std::int64_t x = range.x0; x < range.x1; ++x) {
@@ -152,14 +206,15 @@ class CellMarker {
     return found;
   }
 
-  [[nodiscard]] CellRange find_range(const ClippedTriangle& triangle, double first_depth) const {
+  /// Cells that the hull of `corners` may darken.
+  [[nodiscard]] CellRange find_range(std::span<const glm::dvec3> corners, double first_depth) const {
     const Spread spread = spread_from(first_depth);
     std::int64_t low[2], high[2];
     const std::int32_t start[2] = {cells_.tile.x0, cells_.tile.y0}, cells[2] = {cells_.across, cells_.up};
     for (int a = 0; a < 2; ++a) {
       double least = std::numeric_limits<double>::infinity(), greatest = -least;
-      for (int n = 0; n < triangle.count; ++n) {
-        const double slope = triangle.corner[n][a] / input_.grid.spread_at(triangle.corner[n].z);
+      for (const glm::dvec3& corner : corners) {
+        const double slope = corner[a] / input_.grid.spread_at(corner.z);
         least = std::min(least, slope);
         greatest = std::max(greatest, slope);
       }

@@ -9,13 +9,13 @@ namespace pdsm {
 
 /// Which slopes have to be kept before the next receiver (docs/maths.md, "Bias").
 struct SlopeLimit {
-  double from = 0;         ///< metres, for DepthBias
-  bool thin_gaps = false;  ///< whether receivers lie so close behind others that gentle slopes matter
+  double from = 0;  ///< metres, for DepthBias; infinity where all slopes may go free
 };
 
-/// Asks a grid of rays from the light's centre. Rays are traced twice for a limit, so gentle slopes go free
-/// where hardly any would be changed. `constant`: of the bias, metres. Uses one thread.
+/// Asks a grid of rays from the light's centre. Rays are traced twice for a limit, so slopes go free below
+/// the least that would let more than one ray in a thousand leak. `constant`: of the bias, metres. The answer
+/// is the same for any number of threads.
 [[nodiscard]] SlopeLimit find_slope_limit(const EmbreeScene& scene, const MapGrid& grid, Walk walk,
-                                          double constant);
+                                          double constant, std::uint32_t threads);
 
 }  // namespace pdsm

@@ -68,7 +68,7 @@ TEST(ModelOnly, GentleSlopesAreLimitedWhereReceiversLieCloseBehind) {
       add(scene, quad_mesh(corner(-2, -9, z), corner(2, -9, z), corner(2, 9, z), corner(-2, 9, z)));
     return scene;
   };
-  const char* name = "bias of gentle slopes before receivers";
+  const char* name = "bias of slopes before receivers";
   EXPECT_TRUE(feature({sheet_over(0.2), key_light(), options}, name).modelled);
   const BakedFunctions far(sheet_over(2), key_light(), options);
   EXPECT_FALSE(feature(far, name).modelled);
