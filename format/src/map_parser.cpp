@@ -22,6 +22,7 @@ class MapParser {
   MapParser(std::span<const std::byte> bytes, const ReadLimits& limits, FaultList& faults)
       : bytes_(bytes), budget_(limits.decoded_bytes), faults_(faults) {}
 
+  /// An empty sink: without a look into the blocks.
   PenumbraMap parse(const BlockSink& sink);
 
  private:
@@ -258,7 +259,7 @@ PenumbraMap MapParser::parse(const BlockSink& sink) {
     if (type == kSamplesChunk) parse_samples(n);
     if (type == kMetadataChunk) parse_metadata(n);
   }
-  if (map_is_good && !faults_.full() && count_blocks()) parse_blocks(sink);
+  if (map_is_good && !faults_.full() && count_blocks() && sink) parse_blocks(sink);
   return std::move(map_);
 }
 
@@ -267,6 +268,10 @@ PenumbraMap MapParser::parse(const BlockSink& sink) {
 PenumbraMap parse_map(std::span<const std::byte> bytes, const ReadLimits& limits, FaultList& faults,
                       const BlockSink& sink) {
   return MapParser(bytes, limits, faults).parse(sink);
+}
+
+PenumbraMap parse_frame(std::span<const std::byte> bytes, const ReadLimits& limits, FaultList& faults) {
+  return MapParser(bytes, limits, faults).parse({});
 }
 
 }  // namespace pdsm

@@ -33,4 +33,8 @@ using BlockSink = std::function<void(std::size_t image, std::size_t block, Funct
 [[nodiscard]] PenumbraMap parse_map(std::span<const std::byte> bytes, const ReadLimits& limits,
                                     FaultList& faults, const BlockSink& sink);
 
+/// The same up to the blocks, which are not looked into: the map comes back without them.
+[[nodiscard]] PenumbraMap parse_frame(std::span<const std::byte> bytes, const ReadLimits& limits,
+                                      FaultList& faults);
+
 }  // namespace pdsm

@@ -41,6 +41,16 @@ PenumbraMap read_map(const std::filesystem::path& path, const ReadLimits& limits
   return read_map(file.bytes(), path.string(), limits);
 }
 
+std::optional<std::string> read_metadata(const std::filesystem::path& path, const ReadLimits& limits) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  const MappedFile file(path);
+  FaultList faults(1);
+  PenumbraMap frame = parse_frame(file.bytes(), limits, faults);
+  if (!faults.empty()) return std::nullopt;
+  return std::move(frame.metadata);
+}
+
 std::vector<FileFault> check_map(std::span<const std::byte> bytes, const ReadLimits& limits) {
   FaultList faults(kMaxFaults);
   static_cast<void>(parse_map(bytes, limits, faults, [](std::size_t, std::size_t, FunctionBlock&&) {}));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,6 +83,11 @@ std::uint64_t write_encoded_map(const PenumbraMap& map, std::span<const std::vec
 /// The same from bytes in memory; `name` stands for the path in messages.
 [[nodiscard]] PenumbraMap read_map(std::span<const std::byte> bytes, const std::string& name,
                                    const ReadLimits& limits = {});
+
+/// The metadata of a file whose header, table and checksums hold, without a look into its blocks: far cheaper
+/// than reading it. Nothing where there is no such file. Safe on any bytes.
+[[nodiscard]] std::optional<std::string> read_metadata(const std::filesystem::path& path,
+                                                       const ReadLimits& limits = {});
 
 /// The same bytes as write_map writes.
 [[nodiscard]] std::vector<std::byte> serialize_map(const PenumbraMap& map, const WriteOptions& options = {});
