@@ -63,6 +63,7 @@ struct WindowBounds {
 /// What can be darkened: where it is seen, how deep it reaches, and the box around it.
 struct ReceiverBounds {
   WindowBounds places;
+  bool of_casters = false;                      ///< nothing receives: what casts is taken
   double depth = 0;                             ///< of the deepest, 0 when there is none
   glm::dvec3 low{kInfinity}, high{-kInfinity};  ///< in world axes about the light's centre
 
@@ -156,6 +157,7 @@ ReceiverBounds ViewFitter::receiver_bounds(const Window& window) const {
   limit_depth(region, 0, light_.far_depth.value_or(std::numeric_limits<double>::max()));
   for (const Role role : {Role::receiver, Role::caster}) {
     ReceiverBounds bounds;
+    bounds.of_casters = role == Role::caster;
     visit_parts(
         role, region,
         [&](const Geometry& geometry, const LightTriangle& triangle, std::span<const glm::dvec3> part) {
@@ -279,6 +281,8 @@ FittedView ViewFitter::fit() const {
   fitted.window_fitted = !light_.window;
   view.window = light_.window ? *light_.window : fit_window(receivers);
   if (fitted.window_fitted) receivers = receiver_bounds(view.window);
+
+  fitted.nothing_receives = receivers.of_casters || !(receivers.depth > 0);
 
   fitted.far_fitted = !light_.far_depth;
   double deepest = light_.far_depth.value_or(receivers.depth);

@@ -69,6 +69,7 @@ std::string FileSource::read(const fs::path& path, std::uint64_t limit) {
   std::string bytes = read_whole(path, limit);
   if (hashed_.insert(path).second) {
     XXH3_64bits_update(hash_->state.get(), bytes.data(), bytes.size());
+    files_.push_back(path);
   }
   return bytes;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace pdsm {
 
@@ -28,12 +29,16 @@ class FileSource {
   /// XXH3-64 over everything read so far.
   [[nodiscard]] std::uint64_t content_hash() const;
 
+  /// What was read, each file once, in order.
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
+
   static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
 
  private:
   struct Hash;
   std::unique_ptr<Hash> hash_;
   std::set<std::filesystem::path> hashed_;
+  std::vector<std::filesystem::path> files_;
 };
 
 /// Unpacks gzip data, at most `limit` bytes. Throws Error (input) "name: reason".

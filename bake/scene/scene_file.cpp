@@ -137,6 +137,7 @@ Scene SceneReader::read() {
     warn_if_inside(scene_, light);
   }
   scene_.content_hash = files_.content_hash();
+  scene_.files = files_.files();
   return std::move(scene_);
 }
 

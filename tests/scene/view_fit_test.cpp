@@ -246,6 +246,23 @@ TEST(ViewFit, ImpossibleRequestsAreRefused) {
   EXPECT_EQ(fault_of(light), "lamp.window: must be [x0,y0,x1,y1] with x0 < x1, y0 < y1");
 }
 
+TEST(ViewFit, ALightWithoutReceiversInItsWindowReachesNothing) {
+  EXPECT_FALSE(fit_view(plate_scene(), plate_light(), 1, 1).nothing_receives);
+  Scene scene = plate_scene();
+  for (Geometry& geometry : scene.geometry) geometry.receives = false;
+  EXPECT_TRUE(fit_view(scene, plate_light(), 1, 1).nothing_receives);
+  EXPECT_TRUE(fit_view(Scene{}, plate_light(), 1, 1).nothing_receives);
+  // The floor of 20 m is seen up to slope 10 / 6.
+  Light aside = plate_light();
+  aside.window = Window{1.6, -1, 1.7, 1};
+  EXPECT_FALSE(fit_view(plate_scene(), aside, 1, 1).nothing_receives);
+  aside.window = Window{1.7, -1, 1.8, 1};
+  EXPECT_TRUE(fit_view(plate_scene(), aside, 1, 1).nothing_receives);
+  Light upwards = plate_light();
+  upwards.direction = {0, 1, 0};
+  EXPECT_TRUE(fit_view(plate_scene(), upwards, 1, 1).nothing_receives);
+}
+
 TEST(ViewFit, WithoutReceiversCastersAreFitted) {
   Scene scene = plate_scene();
   for (Geometry& geometry : scene.geometry) geometry.receives = false;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -77,6 +78,7 @@ struct Scene {
   std::vector<Geometry> geometry;
   std::vector<Light> lights;
   std::uint64_t content_hash = 0;  ///< XXH3 of scene file and all files it names, in order; 0 in memory
+  std::vector<std::filesystem::path> files;  ///< that were read for it, in order, each once
   std::vector<std::string> warnings;
 };
 

@@ -16,6 +16,9 @@ struct FittedView {
   double receivers_outside = 0;
   /// No caster lies in the hull of light and window: every function is empty.
   bool nothing_casts = false;
+  /// No light-facing receiver lies in the window, in front of the light and up to far: the light reaches
+  /// nothing of the scene. The view is fitted to casters then.
+  bool nothing_receives = false;
 };
 
 /// Fits what is open.
