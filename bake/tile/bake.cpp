@@ -13,6 +13,7 @@
 #include "tile/bake_job.h"
 #include "tile/map_blocks.h"
 #include "tile/modelled_features.h"
+#include "tile/setup_key.h"
 
 namespace pdsm {
 namespace {
@@ -113,7 +114,8 @@ PenumbraMap make_map_frame(const BakeJob& job) {
   return map;
 }
 
-BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint64_t tiles, double start) {
+BakeReport make_report(const BakeJob& job, const Light& light, const TileStatistics& done,
+                       std::uint64_t tiles, double start) {
   BakeReport report;
   const double threads = job.options.threads;
   report.seconds_bvh = job.seconds_bvh;
@@ -144,11 +146,9 @@ BakeReport make_report(const BakeJob& job, const TileStatistics& done, std::uint
   report.max_slope_bias = done.slope_bias_max;
   report.walk = job.options.walk;
   report.isa = job.options.isa;
+  report.key = setup_key(job, light, report.isa);
   report.modelled = list_modelled_features(job, done);
-  if (job.light_space.dropped_triangles > 0) {
-    report.warnings.push_back(std::to_string(job.light_space.dropped_triangles) +
-                              " triangles without finite coordinates left out");
-  }
+  report.warnings = job.warnings();
   return report;
 }
 
@@ -168,7 +168,7 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
       job, input, [&](FittedBlock&& block) { blocks.take(std::move(block)); }, callbacks);
   const TileStatistics done = run.run();
   baked.blocks = blocks.release();
-  baked.report = make_report(job, done, run.tiles(), start);
+  baked.report = make_report(job, light, done, run.tiles(), start);
   return baked;
 }
 

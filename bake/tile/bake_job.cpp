@@ -11,6 +11,7 @@
 
 #include "pdsm/format/error.h"
 #include "trace/map_rays.h"
+#include "trace/map_reach.h"
 #include "walk/ray_path.h"
 
 namespace pdsm {
@@ -56,7 +57,6 @@ BakeOptions fill_in(BakeOptions o) {
   if (o.map_height == 0) o.map_height = o.height;
   check_options(o);
   if (o.threads == 0) o.threads = static_cast<std::uint32_t>(std::max(1, omp_get_num_procs()));
-  o.isa = choose_isa(o.isa);
   if (!o.light_samples.empty()) o.samples = static_cast<std::uint32_t>(o.light_samples.size());
   // More threads than tasks would only take memory.
   o.threads = std::min(o.threads, std::max(o.samples, blocks_along(o.width) * blocks_along(o.height)));
@@ -104,7 +104,7 @@ double default_bias(const MapGrid& grid) {
 
 }  // namespace
 
-BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
+BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted)
     : options(fill_in(wanted)),
       fitted(fit_view(scene, light, options.width, options.height)),
       samples(options.light_samples.empty()
@@ -117,11 +117,25 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
                          options.depth_tolerance.value_or(kToleranceShare * bias));
   if (options.unrounded_values) write_unrounded(rules);
   mip_levels = count_mip_levels(options);
-  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
-  embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
+  // Samples that the caller brings may lie outside the light's shape, and see more.
+  if (options.light_samples.empty()) keep_within(light_space, map_reach(light, grid));
   seconds_bvh = omp_get_wtime() - start;
+}
+
+std::vector<std::string> BakeSetup::warnings() const {
+  if (light_space.dropped_triangles == 0) return {};
+  return {std::to_string(light_space.dropped_triangles) + " triangles without finite coordinates left out"};
+}
+
+BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
+    : BakeSetup(scene, light, wanted) {
+  options.isa = choose_isa(options.isa);
+  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
+  const double start = omp_get_wtime();
+  embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
+  seconds_bvh += omp_get_wtime() - start;
   if (has_shadows()) slope_limit = find_slope_limit(*embree, grid, options.walk, bias, options.threads);
   if (has_shadows() && shift_law() && grid.perspective())
     casters = project_casters(light_space, grid, bound_samples(samples),

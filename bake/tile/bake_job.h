@@ -10,9 +10,27 @@
 
 namespace pdsm {
 
-/// Everything between the options and the first tile, made once: light-space scene, BVH, samples, view,
-/// grid, bias, fit rules, plan. Bakes and predictions start from it.
-class BakeJob {
+/// What is baked, and from what: all that the functions depend on, but for the ISA. No ray has been traced
+/// for it.
+struct BakeSetup {
+  BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options);
+
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+  BakeOptions options;  ///< with all defaults filled in, but for the ISA
+  FittedView fitted;
+  std::vector<LightSample> samples;
+  MapGrid grid;
+  double bias = 0;  ///< its constant part, metres
+  FitRules rules;
+  std::uint32_t mip_levels = 0;  ///< above 0, that are made
+  LightSpaceScene light_space;   ///< what the light can see of the scene (trace/map_reach.h)
+  double seconds_bvh = 0;        ///< of moving the scene to light space, and of the BVH where there is one
+};
+
+/// Everything between the options and the first tile, made once: besides the setup BVH, projected casters,
+/// plan. Bakes and predictions start from it.
+class BakeJob : public BakeSetup {
  public:
   BakeJob(const Scene& scene, const Light& light, const BakeOptions& options);
 
@@ -28,19 +46,10 @@ class BakeJob {
   /// Whether all samples obey the shift law (walk/ray_path.h), so that one walk serves all rays of each.
   [[nodiscard]] bool shift_law() const;
 
-  BakeOptions options;  ///< with all defaults filled in
-  FittedView fitted;
-  std::vector<LightSample> samples;
-  MapGrid grid;
-  double bias = 0;  ///< its constant part, metres
   SlopeLimit slope_limit;
-  FitRules rules;
-  std::uint32_t mip_levels = 0;  ///< above 0, that are made
   TilePlan plan;
-  LightSpaceScene light_space;
   std::unique_ptr<EmbreeScene> embree;
   CasterTriangles casters;  ///< none where maps are traced
-  double seconds_bvh = 0;
   std::uint64_t resident_after_bvh = 0;
 };
 

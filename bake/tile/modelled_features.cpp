@@ -98,8 +98,7 @@ void list_levels(const BakeJob& job, FeatureList& list) {
   list.either(job.mip_levels > 0, "mip levels",
               "look-ups of up to " + std::to_string(1U << job.mip_levels) +
                   " texels across find their mean: levels up to " + std::to_string(job.mip_levels),
-              job.options.mip_levels > 0 ? "the map is one texel across" : "not asked for by --mip-levels",
-              counted(texels, "functions"));
+              "not asked for by --mip-levels, or the map is one texel across", counted(texels, "functions"));
 }
 
 /// How functions are stored.

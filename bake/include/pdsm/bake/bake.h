@@ -93,6 +93,7 @@ struct BakeReport {
   double mean_slope_bias = 0, max_slope_bias = 0;  ///< metres added per map texel for its slope
   Walk walk = Walk::exact;
   std::string isa;
+  std::string key;  ///< as map_key() tells it (map_key.h)
   std::vector<ModelledFeature> modelled;
   std::vector<std::string> warnings;
 };

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/setup_key.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+
+namespace pdsm {
+namespace {
+
+/// To be raised when the same inputs give other bytes, and neither tool version nor file format tells.
+constexpr std::uint32_t kBytesRevision = 1;
+
+/// XXH3-128 over values. Lists are preceded by their length, so that no two inputs run into the same bytes.
+class KeyHash {
+ public:
+  KeyHash() : state_(XXH3_createState()) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_128bits_reset(state_.get());
+  }
+
+  template <typename T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void add(T value) { add_bytes(&value, sizeof value); }
+  void add(const std::string& text) { add(std::span(text)); }
+  /// Of types without padding.
+  template <typename T, std::size_t extent>
+  void add(std::span<T, extent> values) {
+    add(std::uint64_t{values.size()});
+    add_bytes(values.data(), values.size_bytes());
+  }
+  template <typename T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+
+  [[nodiscard]] std::string digest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+
+  void add_bytes(const void* data, std::size_t size) { XXH3_128bits_update(state_.get(), data, size); }
+
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
+
+void add_light(KeyHash& hash, const Light& light) {
+  hash.add(light.name);
+  hash.add(light.shape.index());
+  if (const auto* sun = std::get_if<DistantLight>(&light.shape)) hash.add(sun->angle);
+  for (const double extent : half_extents(light)) hash.add(extent);
+  for (int axis = 0; axis < 3; ++axis) hash.add(light.position[axis]);
+}
+
+void add_view(KeyHash& hash, const FittedView& fitted) {
+  const View& view = fitted.view;
+  hash.add(std::span(view.world_to_view.rotation));
+  hash.add(std::span(view.world_to_view.translation));
+  hash.add(view.projection);
+  hash.add(std::span(view.window));
+  hash.add(view.near_depth);
+  hash.add(view.far_depth);
+  hash.add(view.width);
+  hash.add(view.height);
+  hash.add(fitted.window_fitted);
+  hash.add(fitted.near_fitted);
+  hash.add(fitted.far_fitted);
+  hash.add(fitted.nothing_casts);
+}
+
+/// With defaults resolved: asking for what would have been taken anyway is the same.
+void add_options(KeyHash& hash, const BakeSetup& setup) {
+  const BakeOptions& options = setup.options;
+  hash.add(options.samples);
+  for (const GridRatio& ratio : setup.grid.ratio) {
+    hash.add(ratio.fine);
+    hash.add(ratio.coarse);
+  }
+  hash.add(options.epsilon);
+  hash.add(setup.rules.tolerance);
+  hash.add(setup.rules.tolerance_codes);
+  hash.add(setup.bias);
+  hash.add(options.walk);
+  hash.add(options.receivers);
+  hash.add(options.points);
+  hash.add(options.seed);
+  hash.add(setup.mip_levels);
+  hash.add(options.unrounded_values);
+}
+
+void add_samples(KeyHash& hash, const std::vector<LightSample>& samples) {
+  hash.add(std::uint64_t{samples.size()});
+  for (const LightSample& sample : samples) {
+    hash.add(std::span(sample.position));
+    hash.add(std::span(sample.jitter));
+    hash.add(sample.weight);
+  }
+}
+
+void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
+  hash.add(std::uint64_t{scene.meshes.size()});
+  for (const LightSpaceMesh& mesh : scene.meshes) {
+    hash.add(mesh.casts);
+    hash.add(mesh.receives);
+    hash.add(mesh.closed);
+    hash.add(std::span(mesh.positions));
+    hash.add(std::span(mesh.triangles));
+  }
+}
+
+}  // namespace
+
+std::string setup_key(const BakeSetup& setup, const Light& light, const std::string& isa,
+                      const std::string& version) {
+  KeyHash hash;
+  hash.add(kBytesRevision);
+  hash.add(kFormatMajor);
+  hash.add(kFormatMinor);
+  hash.add(version);
+  hash.add(isa);
+  add_light(hash, light);
+  add_view(hash, setup.fitted);
+  add_options(hash, setup);
+  add_samples(hash, setup.samples);
+  add_scene(hash, setup.light_space);
+  return hash.digest();
+}
+
+}  // namespace pdsm
