@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cli/inputs.h"
+#include "cli/scene_change.h"
 #include "evaluate/map_statistics.h"
 #include "pdsm/format/error.h"
 #include "pdsm/format/map_file.h"
@@ -44,7 +45,7 @@ std::vector<Fact> map_facts(const LoadedMap& loaded) {
 }
 
 void note_change(const Scene& scene, const LoadedMap& loaded, Messages& messages) {
-  if (!changed_since_bake(scene, loaded.map)) return;
+  if (!changed_since_bake(scene, scene.lights[loaded.light], loaded.map)) return;
   messages.note("warning: " + loaded.path.string() + ": the scene has changed since the bake");
 }
 

@@ -86,17 +86,31 @@ void add_resource_options(CLI::App& sub, BakeCommand& command) {
       ->type_name("N");
 }
 
+void add_verify_options(CLI::App& sub, BakeCommand& command) {
+  CLI::Option* verify =
+      sub.add_flag("--verify", command.verify, "Measure each map's error, as pdsm verify does");
+  add_count(sub, "--verify-points", command.verify_points, 1, 100'000'000, "Points of --verify; default 4000")
+      ->needs(verify);
+  add_real(sub, "--max-error", command.max_error, 0, 1, "Exit 1 when a map's mean_abs_error is above it")
+      ->needs(verify);
+}
+
 }  // namespace
 
 void add_bake_options(CLI::App& sub, BakeCommand& command) {
   add_file(sub, "SCENE", command.scene, "Scene file");
-  sub.add_option("-o,--output", command.output, "Map to write; a folder for several lights, NAME.pdsm each")
+  sub.add_option("-o,--output", command.output,
+                 "Map to write; a folder for several lights, NAME.pdsm each and manifest.json")
       ->type_name("FILE|DIR");
   sub.add_option("--light", command.light, "Bake this light; default all")->type_name("NAME");
   add_goal_options(sub, command);
   add_quality_options(sub, command);
   add_resource_options(sub, command);
+  sub.add_flag("--force", command.force, "Bake maps anew that are up to date by their key");
+  add_verify_options(sub, command);
   sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
+  sub.add_option("--depfile", command.depfile, "Write what was read, as make and ninja take it")
+      ->type_name("FILE");
   sub.add_flag("--quiet", command.quiet, "Nothing but errors on stderr");
   sub.add_flag("--dry-run", command.dry_run, "Print what the bake would take, and do not bake");
 }

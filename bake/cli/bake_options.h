@@ -16,7 +16,7 @@ namespace pdsm {
 
 /// The command line of `pdsm bake`. What it leaves open, the light and then the defaults decide.
 struct BakeCommand {
-  std::string scene, output, report;
+  std::string scene, output, report, depfile;
   std::optional<std::string> light;
   std::optional<std::uint32_t> samples;
   std::optional<std::array<std::uint32_t, 2>> resolution, map_resolution;
@@ -24,7 +24,9 @@ struct BakeCommand {
   std::optional<Quality> quality;
   Goals goals;
   BakeOptions options;  ///< everything else
-  bool quiet = false, dry_run = false;
+  std::uint32_t verify_points = 4000;
+  std::optional<double> max_error;
+  bool quiet = false, dry_run = false, force = false, verify = false;
 };
 
 /// Puts the options on `sub`; they write to `command`, which must outlive parsing.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bake_record.h"
 
-#include <fmt/format.h>
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/goal_record.h"
 #include "evaluate/map_statistics.h"
+#include "level/light_json.h"
+#include "pdsm/bake/map_key.h"
 
 namespace pdsm {
 namespace {
@@ -22,29 +22,6 @@ Json modelled_json(const BakeReport& report) {
     if (!feature.saved.empty()) list.back()["saved"] = feature.saved;
   }
   return list;
-}
-
-/// The light with its frame made explicit: `direction` and `up` are the frame's z and y. Where a distant
-/// light's space begins is in the view.
-Json light_json(const Light& light) {
-  const RigidTransform frame = light_frame(light);
-  const auto& r = frame.rotation;
-  Json json{{"name", light.name}};
-  if (const auto* rect = std::get_if<RectLight>(&light.shape)) {
-    json["type"] = "rect";
-    json["width"] = rect->width;
-    json["height"] = rect->height;
-  } else if (const auto* sun = std::get_if<DistantLight>(&light.shape)) {
-    json["type"] = "distant";
-    json["angle"] = sun->angle;
-  } else {
-    json["type"] = "disk";
-    json["radius"] = std::get<DiskLight>(light.shape).radius;
-  }
-  if (!is_distant(light)) json["position"] = {light.position.x, light.position.y, light.position.z};
-  json["direction"] = {r[6], r[7], r[8]};
-  json["up"] = {r[3], r[4], r[5]};
-  return json;
 }
 
 const char* receivers_name(Receivers receivers) {
@@ -75,7 +52,6 @@ Json fit_json(const FittedView& fitted) {
   return {{"window_fitted", fitted.window_fitted},
           {"near_fitted", fitted.near_fitted},
           {"far_fitted", fitted.far_fitted},
-          {"receivers_outside", fitted.receivers_outside},
           {"nothing_casts", fitted.nothing_casts}};
 }
 
@@ -85,12 +61,12 @@ const char* walk_name(Walk walk) {
   return walk == Walk::midpoint ? "midpoint" : "exact";
 }
 
-std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
-                          const BakedMap& baked, const ChosenBake* chosen) {
+std::string bake_metadata(const Light& light, const BakeOptions& options, const BakedMap& baked,
+                          const ChosenBake* chosen, const Json& asked) {
   const BakeReport& report = baked.report;
   Json json;
-  json["tool"] = {{"name", "pdsm"}, {"version", PDSM_VERSION}};
-  json["input_hash"] = fmt::format("{:016x}", scene.content_hash);
+  json["tool"] = {{"name", "pdsm"}, {"version", kToolVersion}};
+  json["key"] = report.key;
   json["isa"] = report.isa;
   json["light"] = light_json(light);
   json["options"] = options_json(options, report);
@@ -98,6 +74,7 @@ std::string bake_metadata(const Scene& scene, const Light& light, const BakeOpti
   json["epsilon"] = report.epsilon;
   json["depth_tolerance"] = report.depth_tolerance;
   json["bias"] = report.bias;
+  if (!asked.is_null()) json["asked"] = asked;
   if (chosen != nullptr) json["achieved"] = achieved_json(*chosen);
   json["modelled"] = modelled_json(report);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

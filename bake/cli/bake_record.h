@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "choose/search.h"
@@ -11,10 +11,12 @@
 /// What is written down about a bake: in the map for good, in the report for those who run it.
 namespace pdsm {
 
-/// The metadata of a baked map. Holds nothing that another run on the same input could change: no times,
-/// threads or tiles. `chosen` is null unless the bake had goals.
-[[nodiscard]] std::string bake_metadata(const Scene& scene, const Light& light, const BakeOptions& options,
-                                        const BakedMap& baked, const ChosenBake* chosen = nullptr);
+/// The metadata of a baked map. Holds nothing that may change while its key stays (pdsm/bake/map_key.h): no
+/// times, threads or tiles, and nothing of what the light does not see. `chosen` and `asked` (job_key.h) are
+/// null unless the bake had goals.
+[[nodiscard]] std::string bake_metadata(const Light& light, const BakeOptions& options, const BakedMap& baked,
+                                        const ChosenBake* chosen = nullptr,
+                                        const nlohmann::ordered_json& asked = nullptr);
 
 /// What the command line knows beyond the baker's own report.
 struct BakeCosts {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <vector>
 
 #include "cli/bake_options.h"
-#include "cli/bake_record.h"
+#include "cli/bake_summary.h"
 #include "cli/command.h"
-#include "cli/goal_bake.h"
-#include "cli/inputs.h"
-#include "cli/interrupt.h"
+#include "cli/depfile.h"
+#include "cli/level_bake.h"
+#include "cli/map_jobs.h"
 #include "cli/progress_line.h"
+#include "cli/stop_watch.h"
 #include "cli/streams.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/atomic_file.h"
@@ -25,148 +25,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class StopWatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// One map to make.
-struct Job {
-  const Light* light;
-  BakeOptions options;
-  fs::path output;
-};
-
-/// Makes the folder for several maps, in a folder that is there.
-void make_output_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::is_directory(folder, error)) return;
-  if (fs::exists(folder, error)) {
-    throw Error(Failure::usage, "--output", "must be a folder, as the scene has several lights");
-  }
-  if (!fs::create_directory(folder, error)) throw Error(Failure::resource, folder.string(), error.message());
-}
-
-std::vector<Job> plan_jobs(const BakeCommand& command, const Scene& scene) {
-  const std::vector<const Light*> lights = chosen_lights(scene, command.light);
-  std::error_code ignored;
-  const bool in_folder = lights.size() > 1 || fs::is_directory(command.output, ignored);
-  std::vector<Job> jobs;
-  for (const Light* light : lights) {
-    fs::path output = command.output;
-    if (in_folder) output /= light->name + ".pdsm";
-    jobs.push_back({light, options_for(command, *light), output});
-  }
-  return jobs;
-}
-
-/// Whether two paths, of files that need not exist yet, are one.
-bool same_path(const fs::path& a, const fs::path& b) {
-  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
-}
-
-void check_outputs(const BakeCommand& command, const std::vector<Job>& jobs) {
-  if (jobs.size() > 1) make_output_folder(command.output);
-  const std::vector<fs::path> inputs = scene_inputs(command.scene);
-  for (const Job& job : jobs) {
-    check_output(job.output, inputs);
-    if (!command.report.empty() && same_path(job.output, command.report)) {
-      throw Error(Failure::usage, "--report", "is the map to write");
-    }
-  }
-  if (!command.report.empty()) check_output(command.report, inputs);
-}
-
-void tell_notes(const BakeCommand& command, const Job& job, const BakedMap& baked) {
-  if (command.quiet) return;
-  constexpr double kWorthTelling = 0.0005;
-  for (const std::string& warning : baked.report.warnings) write_warning(job.light->name + ": " + warning);
-  if (baked.fitted.receivers_outside >= kWorthTelling) {
-    write_error_line(fmt::format("{}: {:.1f}% of the receiver surface lies outside the window",
-                                 job.light->name, 100 * baked.fitted.receivers_outside));
-  }
-}
-
-/// The last look before a map of limited size is written.
-void check_size(const Goals& goals, const BakedMap& baked) {
-  const std::uint64_t bytes = encoded_map_bytes(baked.map, baked.blocks);
-  if (!goals.size_budget || bytes <= *goals.size_budget) return;
-  throw GoalMissed(fmt::format("--size-budget: metadata makes the file {} bytes", bytes));
-}
-
-BakedMap bake_polled(const BakeCommand& command, const Scene& scene, const Job& job) {
-  ProgressLine line(job.light->name, command.quiet);
-  const PolledInterrupts interrupts;
-  BakeCallbacks callbacks;
-  callbacks.progress = [&line](const BakeProgress& progress) { line.show(progress); };
-  callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
-  BakedMap baked = bake(scene, *job.light, job.options, callbacks);
-  if (PolledInterrupts::interrupted()) throw Error(Failure::interrupted, "", "interrupted");
-  return baked;
-}
-
-/// Writes one map; its report. `chosen` is null unless the bake had goals.
-nlohmann::ordered_json write_job(const BakeCommand& command, const Scene& scene, const Job& job,
-                                 BakedMap& baked, const ChosenBake* chosen, double seconds_load) {
-  baked.map.metadata = bake_metadata(scene, *job.light, job.options, baked, chosen);
-  if (chosen != nullptr) check_size(command.goals, baked);
-  const StopWatch watch;
-  BakeCosts costs;
-  costs.file_bytes = write_encoded_map(baked.map, baked.blocks, job.output);
-  costs.seconds_load = seconds_load;
-  costs.seconds_write = watch.seconds();
-  tell_notes(command, job, baked);
-  return bake_report(job.options, baked, costs, chosen);
-}
-
-/// Bakes and writes one map; its report.
-nlohmann::ordered_json bake_job(const BakeCommand& command, const Scene& scene, const Job& job,
-                                double seconds_load) {
-  BakedMap baked = bake_polled(command, scene, job);
-  return write_job(command, scene, job, baked, nullptr, seconds_load);
-}
-
-/// The same to goals, in `time_budget` seconds when the command has such a goal.
-nlohmann::ordered_json bake_job_to_goals(const BakeCommand& command, const Scene& scene, const Job& job,
-                                         std::optional<double> time_budget, double seconds_load) {
-  ChosenBake chosen = bake_to_goals(command, scene, *job.light, job.options, time_budget);
-  if (!command.quiet) write_error_line(job.light->name + ": " + chosen_text(chosen));
-  const Job as_chosen{job.light, chosen.options, job.output};
-  return write_job(command, scene, as_chosen, chosen.baked, &chosen, seconds_load);
-}
-
-/// Bakes all maps to goals; a time budget is for all of them together.
-nlohmann::ordered_json bake_all_to_goals(const BakeCommand& command, const Scene& scene,
-                                         const std::vector<Job>& jobs, double seconds_load) {
-  const StopWatch watch;
-  nlohmann::ordered_json reports;
-  for (std::size_t n = 0; n < jobs.size(); ++n) {
-    std::optional<double> share;
-    if (command.goals.time_budget) {
-      share = (*command.goals.time_budget - watch.seconds()) / static_cast<double>(jobs.size() - n);
-    }
-    reports[jobs[n].light->name] = bake_job_to_goals(command, scene, jobs[n], share, seconds_load);
-  }
-  if (command.goals.time_budget && watch.seconds() > *command.goals.time_budget) {
-    write_warning(fmt::format("--time-budget: took {:.1f} s", watch.seconds()));
-  }
-  return reports;
-}
-
-void write_report(const fs::path& path, const nlohmann::ordered_json& report) {
-  const std::string text =
-      report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+void write_text(const fs::path& path, const std::string& text) {
   AtomicFile file(path);
   file.write(std::as_bytes(std::span(text)));
   file.commit();
 }
 
-void print_prediction(const Scene& scene, const Job& job) {
+void write_report(const fs::path& path, const nlohmann::ordered_json& report) {
+  write_text(path, report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+void write_depfile(const BakeCommand& command, const Scene& scene, const MapJobs& jobs) {
+  if (command.depfile.empty()) return;
+  const fs::path target = jobs.is_level ? jobs.manifest() : jobs.maps.front().output;
+  write_text(command.depfile, depfile_text(target, scene.files));
+}
+
+void print_prediction(const Scene& scene, const MapJob& job) {
   const BakePrediction prediction = predict_bake(scene, *job.light, job.options);
   const FittedView fitted = fit_view(scene, *job.light, job.options.width, job.options.height);
   const auto& window = fitted.view.window;
@@ -187,17 +62,49 @@ void print_prediction(const Scene& scene, const Job& job) {
       fitted.view.near_depth, fitted.view.far_depth, 100 * fitted.receivers_outside));
 }
 
-void bake_jobs(const BakeCommand& command, const Scene& scene, const std::vector<Job>& jobs,
-               double seconds_load) {
-  check_outputs(command, jobs);
-  nlohmann::ordered_json reports;
-  if (command.goals.any()) {
-    reports = bake_all_to_goals(command, scene, jobs, seconds_load);
-  } else {
-    for (const Job& job : jobs) reports[job.light->name] = bake_job(command, scene, job, seconds_load);
-  }
+void write_reports(const BakeCommand& command, const std::vector<LightOutcome>& outcomes) {
   if (command.report.empty()) return;
-  write_report(command.report, jobs.size() == 1 ? reports.front() : reports);
+  nlohmann::ordered_json reports;
+  for (const LightOutcome& outcome : outcomes) reports[outcome.job->light->name] = outcome.report;
+  write_report(command.report, outcomes.size() == 1 ? reports.front() : reports);
+}
+
+/// The errors of single maps, which have no table.
+void tell_error(const LightOutcome& outcome) {
+  if (!outcome.error) return;
+  write_error_line(fmt::format("{}: mean abs error {:.5f} at {} points", outcome.job->light->name,
+                               outcome.error->mean_abs_error, outcome.error->points));
+}
+
+void tell_outcomes(const std::vector<LightOutcome>& outcomes, bool is_level, double seconds) {
+  if (is_level) {
+    for (const std::string& line : summary_lines(outcomes, seconds)) write_error_line(line);
+  } else {
+    std::ranges::for_each(outcomes, tell_error);
+  }
+}
+
+/// The first failure's, else whether all errors are as small as they were asked to be.
+int exit_code(const BakeCommand& command, const std::vector<LightOutcome>& outcomes) {
+  for (const LightOutcome& outcome : outcomes) {
+    if (outcome.exit_code != kExitOk) return outcome.exit_code;
+  }
+  const bool holds = std::ranges::all_of(outcomes, [&](const LightOutcome& outcome) {
+    return !command.max_error || !outcome.error || outcome.error->mean_abs_error <= *command.max_error;
+  });
+  return holds ? kExitOk : kExitDoesNotHold;
+}
+
+int bake_jobs(const LightBakeInput& input, const MapJobs& jobs, const StopWatch& watch) {
+  prepare_outputs(input.command, jobs);
+  const std::vector<LightOutcome> outcomes = bake_lights(input, jobs);
+  write_reports(input.command, outcomes);
+  if (jobs.is_level) write_level_manifest(outcomes, jobs.manifest());
+  if (!input.command.quiet) tell_outcomes(outcomes, jobs.is_level, watch.seconds());
+  const int code = exit_code(input.command, outcomes);
+  // What failed has to be tried again, whatever changes.
+  if (code == kExitOk || code == kExitDoesNotHold) write_depfile(input.command, input.scene, jobs);
+  return code;
 }
 
 int run_bake(const BakeCommand& command) {
@@ -211,18 +118,17 @@ int run_bake(const BakeCommand& command) {
   if (!command.quiet) {
     for (const std::string& warning : scene.warnings) write_warning(warning);
   }
-  const std::vector<Job> jobs = plan_jobs(command, scene);
+  const MapJobs jobs = plan_jobs(command, scene);
   if (command.dry_run) {
-    for (const Job& job : jobs) print_prediction(scene, job);
+    for (const MapJob& job : jobs.maps) print_prediction(scene, job);
     return kExitOk;
   }
   try {
-    bake_jobs(command, scene, jobs, seconds_load);
+    return bake_jobs({command, scene, jobs.is_level, seconds_load}, jobs, watch);
   } catch (const GoalMissed& missed) {
     write_error_line(missed.what());
     return kExitDoesNotHold;
   }
-  return kExitOk;
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ std::string plain(const Json& value) {
 std::string metadata_text(const Json& metadata) {
   std::string text;
   for (const char* key :
-       {"light", "options", "epsilon", "depth_tolerance", "bias", "achieved", "isa", "tool", "input_hash"}) {
+       {"light", "options", "epsilon", "depth_tolerance", "bias", "achieved", "isa", "tool", "key"}) {
     if (!metadata.is_object() || !metadata.contains(key)) continue;
     text += fmt::format("{:<10} ", key);
     const Json& value = metadata[key];

@@ -12,6 +12,7 @@
 #include "cli/inputs.h"
 #include "cli/options.h"
 #include "cli/parse_camera.h"
+#include "cli/scene_change.h"
 #include "cli/streams.h"
 #include "evaluate/render.h"
 #include "pdsm/bake/scene_file.h"
@@ -38,7 +39,7 @@ std::vector<PictureLight> picture_lights(const Scene& scene, const std::vector<P
     if (std::any_of(lights.begin(), lights.end(), same)) {
       throw Error(Failure::usage, command.files[i], "is a second map of light '" + light.name + "'");
     }
-    warn_if_changed(scene, maps[i], command.files[i]);
+    warn_if_changed(scene, light, maps[i], command.files[i]);
     lights.push_back({&light, &maps[i], maps[i].views.front().near_depth});
   }
   if (!maps.empty()) return lights;

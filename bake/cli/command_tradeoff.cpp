@@ -56,12 +56,12 @@ void set_options(SweepOptions& options, const Light& light) {
                      preset("final", Quality::final)};
 }
 
-SweepCallbacks callbacks_for(const Scene& scene, ProgressLine& line) {
+SweepCallbacks callbacks_for(ProgressLine& line) {
   SweepCallbacks callbacks;
   callbacks.progress = [&line](const SweepProgress& p) { line.show({p.step, p.done, 0}); };
   callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
-  callbacks.metadata = [&scene](const Light& light, const BakeOptions& options, const BakedMap& baked) {
-    return bake_metadata(scene, light, options, baked, nullptr);
+  callbacks.metadata = [](const Light& light, const BakeOptions& options, const BakedMap& baked) {
+    return bake_metadata(light, options, baked);
   };
   return callbacks;
 }
@@ -100,7 +100,7 @@ int run_tradeoff(TradeoffCommand command) {
 
   ProgressLine line("tradeoff", command.quiet);
   const PolledInterrupts interrupts;
-  const SweepCallbacks callbacks = callbacks_for(scene, line);
+  const SweepCallbacks callbacks = callbacks_for(line);
   const Sweep sweep = run_sweep(scene, light, command.options, callbacks);
   write_results(scene, sweep, command.options, callbacks);
   write_result(summary(sweep, folder));

@@ -9,6 +9,7 @@
 #include "cli/inputs.h"
 #include "cli/options.h"
 #include "cli/recorded_options.h"
+#include "cli/scene_change.h"
 #include "cli/streams.h"
 #include "cli/verify_report.h"
 #include "evaluate/window_errors.h"
@@ -40,7 +41,7 @@ std::optional<BakeOptions> options_for_budget(const VerifyCommand& command, cons
   const auto refuse = [&command](const std::string& field, const std::string& reason) {
     throw Error(Failure::input, command.map + ":" + field, reason + ": only --no-budget can measure it");
   };
-  if (changed_since_bake(scene, map)) refuse("input_hash", "the scene has changed since the bake");
+  if (changed_since_bake(scene, light, map)) refuse("key", "the scene has changed since the bake");
   std::optional<BakeOptions> options = recorded_options(map, light);
   if (!options) refuse("options", "the map does not tell how it was baked");
   return options;
@@ -79,7 +80,7 @@ int run_verify(const VerifyCommand& command) {
   const PenumbraMap map = read_map(command.map);
   const Scene scene = read_scene(command.scene);
   const Light& light = light_of_map(scene, map, 0, command.map);
-  if (command.no_budget) warn_if_changed(scene, map, command.map);
+  if (command.no_budget) warn_if_changed(scene, light, map, command.map);
   const std::optional<BakeOptions> bake_options = options_for_budget(command, map, scene, light);
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);

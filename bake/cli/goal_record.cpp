@@ -8,14 +8,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json asked_json(const Goals& goals) {
-  Json json = Json::object();
-  if (goals.target_error) json["target_error"] = *goals.target_error;
-  if (goals.time_budget) json["time_budget"] = *goals.time_budget;
-  if (goals.size_budget) json["size_budget"] = *goals.size_budget;
-  return json;
-}
-
 Json settings_json(const Settings& settings) {
   Json json = {{"samples", settings.samples}, {"resolution", {settings.width, settings.height}}};
   // Left out where the maps' size was given.
@@ -36,6 +28,14 @@ Json trial_json(const Trial& trial) {
 }
 
 }  // namespace
+
+Json asked_json(const Goals& goals) {
+  Json json = Json::object();
+  if (goals.target_error) json["target_error"] = *goals.target_error;
+  if (goals.time_budget) json["time_budget"] = *goals.time_budget;
+  if (goals.size_budget) json["size_budget"] = *goals.size_budget;
+  return json;
+}
 
 Json achieved_json(const ChosenBake& chosen) {
   const Trial& trial = chosen.chosen;

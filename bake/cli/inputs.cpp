@@ -120,17 +120,6 @@ const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_
   return light;
 }
 
-bool changed_since_bake(const Scene& scene, const PenumbraMap& map) {
-  const nlohmann::ordered_json metadata = metadata_of(map);
-  const auto hash = metadata.find("input_hash");
-  if (hash == metadata.end() || !hash->is_string()) return false;
-  return *hash != fmt::format("{:016x}", scene.content_hash);
-}
-
-void warn_if_changed(const Scene& scene, const PenumbraMap& map, const std::string& map_name) {
-  if (changed_since_bake(scene, map)) write_warning(map_name + ": the scene has changed since the bake");
-}
-
 std::vector<fs::path> scene_inputs(const fs::path& scene_file) {
   std::vector<fs::path> inputs{scene_file};
   std::error_code ignored;

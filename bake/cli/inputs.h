@@ -32,12 +32,6 @@ namespace pdsm {
 [[nodiscard]] const Light& light_of_map(const Scene& scene, const PenumbraMap& map, std::size_t index,
                                         const std::string& map_name);
 
-/// Whether the map's metadata tells of other inputs than `scene` was read from.
-[[nodiscard]] bool changed_since_bake(const Scene& scene, const PenumbraMap& map);
-
-/// Warns when the map's metadata tells of other inputs than `scene` was read from.
-void warn_if_changed(const Scene& scene, const PenumbraMap& map, const std::string& map_name);
-
 /// The scene file and the files that it names.
 [[nodiscard]] std::vector<std::filesystem::path> scene_inputs(const std::filesystem::path& scene_file);
 

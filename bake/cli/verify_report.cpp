@@ -49,8 +49,7 @@ std::string budget_text(const ErrorBudget& budget) {
 
 }  // namespace
 
-std::string verify_json(const VerifyReport& report) {
-  const VerifyResult& result = report.result;
+nlohmann::ordered_json verify_result_json(const VerifyResult& result) {
   Json json;
   json["points"] = result.points;
   json["shadowed_points"] = result.shadowed_points;
@@ -65,6 +64,11 @@ std::string verify_json(const VerifyReport& report) {
   json["bias"] = result.bias;
   json["truth_standard_error"] = result.truth_standard_error;
   json["past_end"] = result.past_end;
+  return json;
+}
+
+std::string verify_json(const VerifyReport& report) {
+  Json json = verify_result_json(report.result);
   json["atty_error"] = report.atty_error;
   if (report.budget) json["budget"] = budget_json(*report.budget);
   return json.dump(2) + "\n";

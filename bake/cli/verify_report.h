@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,7 @@ struct VerifyReport {
   std::optional<ErrorBudget> budget;
 };
 
+[[nodiscard]] nlohmann::ordered_json verify_result_json(const VerifyResult& result);
 [[nodiscard]] std::string verify_json(const VerifyReport& report);
 [[nodiscard]] std::string verify_text(const VerifyReport& report);
 

@@ -104,7 +104,7 @@ TEST_F(BakeCommand, MetadataTellsWhatWasBaked) {
   EXPECT_EQ(metadata["light"]["direction"], (std::vector<double>{0, -1, 0}));
   EXPECT_EQ(metadata["epsilon"], 0.05);
   EXPECT_EQ(metadata["options"]["seed"], 7);
-  EXPECT_EQ(metadata["input_hash"].get<std::string>().size(), 16U);
+  EXPECT_EQ(metadata["key"].get<std::string>().size(), 32U);
   EXPECT_FALSE(metadata["isa"].get<std::string>().empty());
   EXPECT_FALSE(metadata["modelled"].empty());
 }

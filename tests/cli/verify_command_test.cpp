@@ -118,10 +118,13 @@ TEST_F(VerifyCommand, BudgetBakesAsTheMapWasBaked) {
 
 TEST_F(VerifyCommand, BudgetNeedsTheSceneOfTheBake) {
   EXPECT_EQ(verify({}).err, "");
+  // What the light can't see is not what it was baked from.
   write_file("one.scene.json", contents("one.scene.json") + "\n");
+  EXPECT_EQ(verify({}).err, "");
+  write_file("plate.obj", "v -1 1 -1\nv -1 1 1\nv 1 1 1\nf 1 2 3\n");
   const Outcome refused = verify({});
   expect_exit(refused, 3);
-  EXPECT_EQ(refused.err.find("map.pdsm:input_hash: the scene has changed"), 0U) << refused.err;
+  EXPECT_EQ(refused.err.find("map.pdsm:key: the scene has changed"), 0U) << refused.err;
   EXPECT_EQ(refused.out, "");
   const Outcome alone = verify({"--no-budget"});
   EXPECT_EQ(alone.exit_code, 0);

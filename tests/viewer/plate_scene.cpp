@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plate_scene.h"
 
-#include <fmt/format.h>
 #include <stdlib.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "cli/bake_record.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/map_file.h"
@@ -44,8 +44,7 @@ void bake_light(const std::string& scene_file, std::size_t light, const std::str
   options.samples = 128;
   options.width = options.height = 192;
   BakedMap baked = bake(scene, scene.lights[light], options);
-  baked.map.metadata = fmt::format(R"({{ "light": {{ "name": "{}" }}, "input_hash": "{:016x}" }})",
-                                   scene.lights[light].name, scene.content_hash);
+  baked.map.metadata = bake_metadata(scene.lights[light], options, baked);
   write_encoded_map(baked.map, baked.blocks, scratch_folder / name);
 }
 
