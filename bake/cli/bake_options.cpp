@@ -95,7 +95,22 @@ void add_verify_options(CLI::App& sub, BakeCommand& command) {
       ->needs(verify);
 }
 
+void add_message_options(CLI::App& sub, BakeCommand& command) {
+  sub.add_flag("--quiet", command.quiet, "Nothing but errors on stderr, and what --progress asks for");
+  add_choice(sub, "--progress", command.progress,
+             {{"none", std::optional(ProgressStyle::none)},
+              {"terminal", std::optional(ProgressStyle::terminal)},
+              {"json", std::optional(ProgressStyle::json)}},
+             "How progress is told on stderr; default terminal on a terminal, else none");
+  sub.add_flag("--warnings-as-errors", command.warnings_as_errors,
+               "Exit 3 at a warning, and write no map of it");
+}
+
 }  // namespace
+
+ProgressStyle progress_style(const BakeCommand& command) {
+  return command.progress.value_or(progress_style(command.quiet));
+}
 
 void add_bake_options(CLI::App& sub, BakeCommand& command) {
   add_file(sub, "SCENE", command.scene, "Scene file");
@@ -111,7 +126,7 @@ void add_bake_options(CLI::App& sub, BakeCommand& command) {
   sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
   sub.add_option("--depfile", command.depfile, "Write what was read, as make and ninja take it")
       ->type_name("FILE");
-  sub.add_flag("--quiet", command.quiet, "Nothing but errors on stderr");
+  add_message_options(sub, command);
   sub.add_flag("--dry-run", command.dry_run, "Print what the bake would take, and do not bake");
 }
 

@@ -9,6 +9,7 @@
 
 #include "choose/goals.h"
 #include "choose/quality.h"
+#include "cli/progress_line.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/format/map_file.h"
 
@@ -26,8 +27,12 @@ struct BakeCommand {
   BakeOptions options;  ///< everything else
   std::uint32_t verify_points = 4000;
   std::optional<double> max_error;
-  bool quiet = false, dry_run = false, force = false, verify = false;
+  std::optional<ProgressStyle> progress;
+  bool quiet = false, dry_run = false, force = false, verify = false, warnings_as_errors = false;
 };
+
+/// How progress is told: as asked for, else as suits stderr.
+[[nodiscard]] ProgressStyle progress_style(const BakeCommand& command);
 
 /// Puts the options on `sub`; they write to `command`, which must outlive parsing.
 void add_bake_options(CLI::App& sub, BakeCommand& command);

@@ -115,9 +115,7 @@ int run_bake(const BakeCommand& command) {
   const StopWatch watch;
   const Scene scene = read_scene(command.scene);
   const double seconds_load = watch.seconds();
-  if (!command.quiet) {
-    for (const std::string& warning : scene.warnings) write_warning(warning);
-  }
+  tell_warnings(command, "", scene.warnings);
   const MapJobs jobs = plan_jobs(command, scene);
   if (command.dry_run) {
     for (const MapJob& job : jobs.maps) print_prediction(scene, job);

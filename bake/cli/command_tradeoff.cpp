@@ -98,7 +98,7 @@ int run_tradeoff(TradeoffCommand command) {
   command.options.folder = folder;
   set_options(command.options, light);
 
-  ProgressLine line("tradeoff", command.quiet);
+  ProgressLine line({"tradeoff", ""}, progress_style(command.quiet));
   const PolledInterrupts interrupts;
   const SweepCallbacks callbacks = callbacks_for(line);
   const Sweep sweep = run_sweep(scene, light, command.options, callbacks);

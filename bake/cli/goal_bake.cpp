@@ -17,7 +17,9 @@ ChosenBake bake_to_goals(const BakeCommand& command, const Scene& scene, const L
   const PolledInterrupts interrupts;
   TrialCallbacks callbacks;
   // Each trial has a line of its own, so that its time left is its own too.
-  callbacks.begin = [&](const std::string& what) { line.emplace(light.name + ", " + what, command.quiet); };
+  callbacks.begin = [&](const std::string& what) {
+    line.emplace(ProgressTitle{light.name, what}, progress_style(command));
+  };
   callbacks.bake.progress = [&](const BakeProgress& progress) { line->show(progress); };
   callbacks.bake.cancelled = [] { return PolledInterrupts::interrupted(); };
   Goals goals = command.goals;

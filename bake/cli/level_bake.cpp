@@ -12,6 +12,12 @@
 namespace pdsm {
 namespace {
 
+/// The last object of a light.
+void tell_end(const BakeCommand& command, const LightOutcome& outcome) {
+  if (progress_style(command) != ProgressStyle::json) return;
+  ProgressLine({outcome.job->light->name, ""}, ProgressStyle::json).show({status_name(outcome.status), 1, 0});
+}
+
 /// What a light's failure leaves behind when the others go on. Only what is this light's own is kept; a
 /// failure of options or an interrupt is everyone's.
 LightOutcome failed(const MapJob& job, const std::string& reason, int exit_code) {
@@ -66,6 +72,7 @@ std::vector<LightOutcome> bake_lights(const LightBakeInput& input, const MapJobs
     std::optional<double> share;
     if (budget) share = (*budget - watch.seconds()) / static_cast<double>(jobs.maps.size() - outcomes.size());
     outcomes.push_back(input.is_level ? bake_one_of_level(input, job, share) : bake_light(input, job, share));
+    tell_end(input.command, outcomes.back());
   }
   if (budget && watch.seconds() > *budget) {
     write_warning(fmt::format("--time-budget: took {:.1f} s", watch.seconds()));

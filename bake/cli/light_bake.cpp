@@ -37,7 +37,7 @@ void check_size(const Goals& goals, const BakedMap& baked) {
 }
 
 BakedMap bake_polled(const LightBakeInput& input, const MapJob& job) {
-  ProgressLine line(job.light->name, input.command.quiet);
+  ProgressLine line({job.light->name, ""}, progress_style(input.command));
   const PolledInterrupts interrupts;
   BakeCallbacks callbacks;
   callbacks.progress = [&line](const BakeProgress& progress) { line.show(progress); };
@@ -60,6 +60,7 @@ void measure(const LightBakeInput& input, const MapJob& job, const PenumbraMap& 
 /// Writes a map, with what is to be said about it.
 void write_baked(const LightBakeInput& input, const MapJob& job, BakedMap& baked, const ChosenBake* chosen,
                  const nlohmann::ordered_json& asked, LightOutcome& outcome) {
+  tell_warnings(input.command, job.light->name, baked.report.warnings);
   baked.map.metadata = bake_metadata(*job.light, job.options, baked, chosen, asked);
   if (chosen != nullptr) check_size(input.command.goals, baked);
   const StopWatch watch;
@@ -108,17 +109,18 @@ void skip(const LightBakeInput& input, const MapJob& job, LightOutcome& outcome)
                    (removed ? "; the map of before is removed" : ""));
 }
 
-void keep(const LightBakeInput& input, const MapJob& job, const FittedView& fitted, LightOutcome& outcome) {
+void keep(const LightBakeInput& input, const MapJob& job, const MapKey& key, LightOutcome& outcome) {
+  tell_warnings(input.command, job.light->name, key.warnings);
   outcome.status = Status::unchanged;
   const bool has_goals = input.command.goals.any();
   PenumbraMap map;
   if (has_goals || input.command.verify) map = read_map(job.output);
   // Goals chose the resolution.
-  outcome.view = has_goals ? map.views.front() : fitted.view;
+  outcome.view = has_goals ? map.views.front() : key.fitted.view;
   outcome.bytes = fs::file_size(job.output);
   outcome.report["bytes"]["file"] = outcome.bytes;
   if (!input.command.quiet) write_error_line(job.light->name + ": unchanged");
-  tell_outside(input.command, *job.light, fitted);
+  tell_outside(input.command, *job.light, key.fitted);
   measure(input, job, map, outcome);
 }
 
@@ -133,17 +135,24 @@ void make_map(const LightBakeInput& input, const MapJob& job, std::optional<doub
   // A single map that is not there needs no key beforehand: its bake tells it.
   if (!input.is_level && !has_goals && !has_map) return bake_to_options(input, job, outcome);
   const JobKey key = job_key(input.command, input.scene, job);
-  const FittedView& fitted = key.map.fitted;
-  if (input.is_level && fitted.nothing_receives) return skip(input, job, outcome);
+  if (input.is_level && key.map.fitted.nothing_receives) return skip(input, job, outcome);
   if (const auto recorded = has_map ? up_to_date_key(key, job.output) : std::nullopt) {
     outcome.key = *recorded;
-    return keep(input, job, fitted, outcome);
+    return keep(input, job, key.map, outcome);
   }
   if (!has_goals) return bake_to_options(input, job, outcome);
   bake_to_goals(input, job, key, time_share, outcome);
 }
 
 }  // namespace
+
+void tell_warnings(const BakeCommand& command, const std::string& where,
+                   const std::vector<std::string>& warnings) {
+  if (command.warnings_as_errors && !warnings.empty())
+    throw Error(Failure::input, where, warnings.front() + " (--warnings-as-errors)");
+  if (command.quiet) return;
+  for (const std::string& warning : warnings) write_warning(where.empty() ? warning : where + ": " + warning);
+}
 
 const char* status_name(Status status) {
   switch (status) {

@@ -37,6 +37,11 @@ struct LightBakeInput {
   double seconds_load = 0;
 };
 
+/// Warnings on stderr, unless the command is quiet; with --warnings-as-errors the first is thrown as Error
+/// (input). `where` may be empty.
+void tell_warnings(const BakeCommand& command, const std::string& where,
+                   const std::vector<std::string>& warnings);
+
 /// Makes one map, unless the one that is there has the same key, or (in a level) the light reaches nothing.
 /// `time_share`: of --time-budget. Throws Error and GoalMissed; then no file has been touched.
 [[nodiscard]] LightOutcome bake_light(const LightBakeInput& input, const MapJob& job,

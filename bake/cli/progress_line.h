@@ -2,18 +2,32 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "pdsm/bake/bake.h"
 
 namespace pdsm {
 
-/// One line on stderr, rewritten as a bake goes on, when stderr is a terminal: step, share done, rays a
-/// second, time left. Gone when the object is.
+enum class ProgressStyle {
+  none,
+  terminal,  ///< one line, rewritten as a bake goes on and gone at its end
+  json       ///< one JSON object a line (docs/commands.md)
+};
+
+/// What suits stderr: nothing where it is no terminal, or when `quiet`.
+[[nodiscard]] ProgressStyle progress_style(bool quiet);
+
+/// What is going on.
+struct ProgressTitle {
+  std::string light;
+  std::string trial;  ///< which of several bakes of the light; may be empty
+};
+
+/// Tells on stderr how far a bake is: step, share done, rays a second, time left.
 class ProgressLine {
  public:
-  /// `title` begins the line. Shows nothing when `quiet`, or where stderr is no terminal.
-  ProgressLine(std::string title, bool quiet);
+  ProgressLine(ProgressTitle title, ProgressStyle style);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -21,8 +35,13 @@ class ProgressLine {
   void show(const BakeProgress& progress);
 
  private:
-  std::string title_;
-  bool shown_;
+  void show_on_terminal(const BakeProgress& progress) const;
+  void show_as_json(const BakeProgress& progress) const;
+  /// Empty while it would be a guess not worth showing.
+  [[nodiscard]] std::optional<double> seconds_left(double done) const;
+
+  ProgressTitle title_;
+  ProgressStyle style_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
