@@ -22,6 +22,8 @@ class MapBlocks {
 
   /// Takes a block with its part of each level, each block once. Any thread, several at once.
   void take(FittedBlock&& block);
+  /// The same where level 0 is encoded already.
+  void take(FittedBlock&& block, EncodedBlock&& base);
 
   /// The encoded blocks of each image, row by row, once all have been taken. Empties this.
   [[nodiscard]] std::vector<std::vector<EncodedBlock>> release() { return std::move(encoded_); }
@@ -39,7 +41,7 @@ class MapBlocks {
   };
 
   void open_level(const FunctionImage& image);
-  void take_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by, FunctionBlock&& part);
+  void take_level_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by, FunctionBlock&& part);
 
   VertexCoding coding_;
   std::vector<Level> levels_;

@@ -47,7 +47,7 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
 }
 
 /// How visibility was found. Numbers are of the map, not of the tiles: the file must not depend on those.
-void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
+void list_visibility(const BakeJob& job, const BlockCounts& done, FeatureList& list) {
   const std::uint64_t texels = std::uint64_t{job.grid.texels[0]} * job.grid.texels[1];
   const std::uint64_t samples = job.samples.size();
   const bool casts = job.has_shadows(), parallel = !job.grid.perspective();
@@ -103,7 +103,7 @@ void list_levels(const BakeJob& job, FeatureList& list) {
 }
 
 /// How functions are stored.
-void list_coding(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
+void list_coding(const BakeJob& job, const BlockCounts& done, FeatureList& list) {
   const VertexCoding& coding = job.rules.coding;
   VertexCoding colour = coding, deep = coding, fine = coding;
   colour.channels = 3;
@@ -120,7 +120,7 @@ void list_coding(const BakeJob& job, const TileStatistics& done, FeatureList& li
 
 }  // namespace
 
-std::vector<ModelledFeature> list_modelled_features(const BakeJob& job, const TileStatistics& done) {
+std::vector<ModelledFeature> list_modelled_features(const BakeJob& job, const BlockCounts& done) {
   FeatureList list;
   list_visibility(job, done, list);
   list_domain(job, list);

@@ -10,6 +10,6 @@ namespace pdsm {
 
 /// What a bake modelled and what it left out, with the reasons and what leaving it out saved.
 [[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeJob& job,
-                                                                  const TileStatistics& done);
+                                                                  const BlockCounts& done);
 
 }  // namespace pdsm
