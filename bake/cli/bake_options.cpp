@@ -96,6 +96,7 @@ void add_bake_options(CLI::App& sub, BakeCommand& command) {
   add_goal_options(sub, command);
   add_quality_options(sub, command);
   add_resource_options(sub, command);
+  add_checkpoint_options(sub, command.checkpoint);
   sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
   sub.add_flag("--quiet", command.quiet, "Nothing but errors on stderr");
   sub.add_flag("--dry-run", command.dry_run, "Print what the bake would take, and do not bake");

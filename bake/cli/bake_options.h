@@ -9,6 +9,7 @@
 
 #include "choose/goals.h"
 #include "choose/quality.h"
+#include "cli/checkpoint_choice.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/format/map_file.h"
 
@@ -24,6 +25,7 @@ struct BakeCommand {
   std::optional<Quality> quality;
   Goals goals;
   BakeOptions options;  ///< everything else
+  CheckpointChoice checkpoint;
   bool quiet = false, dry_run = false;
 };
 

@@ -99,13 +99,13 @@ void check_size(const Goals& goals, const BakedMap& baked) {
   throw GoalMissed(fmt::format("--size-budget: metadata makes the file {} bytes", bytes));
 }
 
-BakedMap bake_polled(const BakeCommand& command, const Scene& scene, const Job& job) {
+BakedMap bake_polled(const BakeCommand& command, const Scene& scene, const Job& job, Checkpoint* checkpoint) {
   ProgressLine line(job.light->name, command.quiet);
   const PolledInterrupts interrupts;
   BakeCallbacks callbacks;
   callbacks.progress = [&line](const BakeProgress& progress) { line.show(progress); };
   callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
-  BakedMap baked = bake(scene, *job.light, job.options, callbacks);
+  BakedMap baked = bake(scene, *job.light, job.options, callbacks, checkpoint);
   if (PolledInterrupts::interrupted()) throw Error(Failure::interrupted, "", "interrupted");
   return baked;
 }
@@ -127,8 +127,12 @@ nlohmann::ordered_json write_job(const BakeCommand& command, const Scene& scene,
 /// Bakes and writes one map; its report.
 nlohmann::ordered_json bake_job(const BakeCommand& command, const Scene& scene, const Job& job,
                                 double seconds_load) {
-  BakedMap baked = bake_polled(command, scene, job);
-  return write_job(command, scene, job, baked, nullptr, seconds_load);
+  const std::unique_ptr<Checkpoint> checkpoint =
+      make_checkpoint(command.checkpoint, job.output, command.quiet);
+  BakedMap baked = bake_polled(command, scene, job, checkpoint.get());
+  nlohmann::ordered_json report = write_job(command, scene, job, baked, nullptr, seconds_load);
+  if (checkpoint) checkpoint->remove();
+  return report;
 }
 
 /// The same to goals, in `time_budget` seconds when the command has such a goal.
