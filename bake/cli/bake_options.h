@@ -11,6 +11,7 @@
 #include "choose/quality.h"
 #include "cli/checkpoint_choice.h"
 #include "pdsm/bake/bake.h"
+#include "pdsm/bake/shard.h"
 #include "pdsm/format/map_file.h"
 
 namespace pdsm {
@@ -26,6 +27,7 @@ struct BakeCommand {
   Goals goals;
   BakeOptions options;  ///< everything else
   CheckpointChoice checkpoint;
+  std::optional<Share> shard;
   bool quiet = false, dry_run = false;
 };
 

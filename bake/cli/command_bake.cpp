@@ -15,9 +15,9 @@
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
+#include "cli/shard_bake.h"
 #include "cli/streams.h"
 #include "pdsm/bake/scene_file.h"
-#include "pdsm/format/atomic_file.h"
 #include "pdsm/format/error.h"
 
 namespace pdsm {
@@ -63,11 +63,6 @@ std::vector<Job> plan_jobs(const BakeCommand& command, const Scene& scene) {
     jobs.push_back({light, options_for(command, *light), output});
   }
   return jobs;
-}
-
-/// Whether two paths, of files that need not exist yet, are one.
-bool same_path(const fs::path& a, const fs::path& b) {
-  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
 void check_outputs(const BakeCommand& command, const std::vector<Job>& jobs) {
@@ -162,14 +157,6 @@ nlohmann::ordered_json bake_all_to_goals(const BakeCommand& command, const Scene
   return reports;
 }
 
-void write_report(const fs::path& path, const nlohmann::ordered_json& report) {
-  const std::string text =
-      report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
-}
-
 void print_prediction(const Scene& scene, const Job& job) {
   const BakePrediction prediction = predict_bake(scene, *job.light, job.options);
   const FittedView fitted = fit_view(scene, *job.light, job.options.width, job.options.height);
@@ -209,11 +196,16 @@ int run_bake(const BakeCommand& command) {
     throw Error(Failure::usage, "--output", "is required, except for --dry-run");
   }
   check_goals(command);
+  if (command.shard) check_shard(command);
   const StopWatch watch;
   const Scene scene = read_scene(command.scene);
   const double seconds_load = watch.seconds();
   if (!command.quiet) {
     for (const std::string& warning : scene.warnings) write_warning(warning);
+  }
+  if (command.shard) {
+    run_shard_bake(command, scene);
+    return kExitOk;
   }
   const std::vector<Job> jobs = plan_jobs(command, scene);
   if (command.dry_run) {

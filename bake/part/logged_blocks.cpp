@@ -15,14 +15,14 @@ PartShape part_shape(const BakeJob& job) {
           job.options.receivers != Receivers::all};
 }
 
-TileRunOutput logged_output(const BakeJob& job, MapBlocks& blocks, const BakeCallbacks& callbacks,
-                            CheckpointLog* log) {
+TileRunOutput logged_output(const BakeJob& job, const BakeCallbacks& callbacks, CheckpointLog* log,
+                            EncodedSink sink) {
   TileRunOutput output;
   output.callbacks = callbacks;
-  output.take = [&blocks, log, coding = job.rules.coding](FittedBlock&& block) {
+  output.take = [log, coding = job.rules.coding, sink = std::move(sink)](FittedBlock&& block) {
     EncodedBlock base = encode_block(coding, block.width, block.height, block.levels.front());
     if (log != nullptr) log->keep(coding, block, base);
-    blocks.take(std::move(block), std::move(base));
+    sink(std::move(block), std::move(base));
   };
   if (log == nullptr) return output;
   output.tile_done = [log](const TileStatistics& tile) { log->keep(tile); };
@@ -31,7 +31,7 @@ TileRunOutput logged_output(const BakeJob& job, MapBlocks& blocks, const BakeCal
 }
 
 TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job, TileRun& run,
-                         MapBlocks& blocks) {
+                         const BlockSink& sink) {
   const std::vector<PartRecord> records = log.begin(header);
   const PartShape shape = part_shape(job);
   std::vector<bool> is_there(block_count(job.grid));
@@ -49,7 +49,7 @@ TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const Bak
         is_there[block->index] = true;
         run.leave_out(block->index, block->counts);
       }
-      blocks.take(std::move(*block));
+      sink(std::move(*block));
     });
   }
   failure.rethrow();

@@ -61,4 +61,34 @@ struct TileTotals {
 };
 static_assert(sizeof(TileTotals) == 72);
 
+/// The payload of a BAKE record begins so; samples, instruction set and the caller's text follow.
+struct FactsRecord {
+  std::array<double, 9> rotation{};
+  std::array<double, 3> translation{};
+  std::array<double, 4> window{};
+  double near_depth = 0, far_depth = 0, receivers_outside = 0;
+  double epsilon = 0, depth_tolerance = 0, bias = 0, slope_limit_from = 0;
+  std::uint64_t dropped_triangles = 0;
+  std::uint32_t projection = 0, width = 0, height = 0, mip_levels = 0, mip_levels_asked = 0;
+  std::uint32_t depth_bits = 0, value_bits = 0, channels = 0, value_max = 0;
+  std::uint32_t map_width = 0, map_height = 0, walk = 0, receivers = 0, flags = 0;
+  std::uint32_t samples = 0, isa_bytes = 0, description_bytes = 0, reserved = 0;
+};
+static_assert(sizeof(FactsRecord) == 264);
+
+struct FactsSample {
+  std::array<double, 3> position{};
+  std::array<float, 2> jitter{};
+  float weight = 0;
+  std::uint32_t reserved = 0;
+};
+static_assert(sizeof(FactsSample) == 40);
+
+/// The payload of a DONE record.
+struct EndRecord {
+  std::uint64_t blocks = 0, tiles = 0, resident_after_bvh = 0;
+  double threads = 1, seconds_bvh = 0, seconds_total = 0;
+};
+static_assert(sizeof(EndRecord) == 48);
+
 }  // namespace pdsm

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "part/share_rect.h"
 #include "pdsm/format/error.h"
 #include "trace/map_rays.h"
 #include "walk/ray_path.h"
@@ -104,7 +105,7 @@ double default_bias(const MapGrid& grid) {
 
 }  // namespace
 
-BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
+BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share)
     : options(fill_in(wanted)),
       fitted(fit_view(scene, light, options.width, options.height)),
       samples(options.light_samples.empty()
@@ -117,7 +118,8 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
                          options.depth_tolerance.value_or(kToleranceShare * bias));
   if (options.unrounded_values) write_unrounded(rules);
   mip_levels = count_mip_levels(options);
-  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
+  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels,
+                     share_rect(grid, share)});
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
