@@ -9,6 +9,7 @@
 #include "part/bake_identity.h"
 #include "part/checkpoint_log.h"
 #include "part/logged_blocks.h"
+#include "pdsm/bake/stream.h"
 #include "tile/bake_blocks.h"
 #include "tile/bake_facts.h"
 #include "tile/bake_job.h"
@@ -25,6 +26,11 @@ constexpr std::uint32_t kTrialSamples = 4;
 
 BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options,
               const BakeCallbacks& callbacks, Checkpoint* checkpoint) {
+  return bake_streamed(scene, light, options, {}, callbacks, checkpoint);
+}
+
+BakedMap bake_streamed(const Scene& scene, const Light& light, const BakeOptions& options,
+                       const BakeStream& stream, const BakeCallbacks& callbacks, Checkpoint* checkpoint) {
   const double start = omp_get_wtime();
   if (callbacks.progress) callbacks.progress({"bvh", 0, 0});
   const BakeJob job(scene, light, options);
@@ -32,7 +38,11 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
   BakedMap baked;
   baked.map = make_map_frame(facts);
   baked.fitted = facts.fitted;
-  MapBlocks blocks(facts.coding, baked.map.images);
+  if (stream.begin) {
+    baked.report = make_report(facts, {}, {});
+    stream.begin(baked);
+  }
+  MapBlocks blocks(facts.coding, baked.map.images, stream.take);
   const TileInput input = job.tile_input();
   CheckpointLog* log = checkpoint != nullptr ? &checkpoint->log() : nullptr;
   TileRunOutput output =
@@ -47,7 +57,7 @@ BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options
   }
   run.run();
   taken.add(run.statistics());
-  baked.blocks = blocks.release();
+  if (!stream.take) baked.blocks = blocks.release();
   baked.report = make_report(facts, run.counts(), taken);
   add_seconds(taken, job.options.threads, baked.report);
   baked.report.seconds_bvh = job.seconds_bvh;

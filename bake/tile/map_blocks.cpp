@@ -43,7 +43,8 @@ std::uint32_t part_edge(std::uint32_t level) {
 
 }  // namespace
 
-MapBlocks::MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images) : coding_(coding) {
+MapBlocks::MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images, Finished finished)
+    : coding_(coding), finished_(std::move(finished)) {
   for (const FunctionImage& image : images) {
     assert(image.level == levels_.size());
     open_level(image);
@@ -71,7 +72,7 @@ void MapBlocks::take(FittedBlock&& block) {
 
 void MapBlocks::take(FittedBlock&& block, EncodedBlock&& base) {
   assert(block.levels.size() == levels_.size());
-  encoded_[0][block.index] = std::move(base);
+  finish(0, block.index, std::move(base));
   const std::uint32_t bx = block.index % levels_[0].across, by = block.index / levels_[0].across;
   for (std::uint32_t l = 1; l < levels_.size(); ++l) {
     // A narrow block at the border has no texel of the upper levels.
@@ -97,10 +98,17 @@ void MapBlocks::take_level_part(std::uint32_t level, std::uint32_t bx, std::uint
   const auto encode = [&, across = width, up = height](const FunctionBlock& whole) {
     return encode_block(coding_, across, up, whole);
   };
-  encoded_[level][index] =
-      parts.size() == 1
-          ? encode(parts.front())
-          : encode(join_parts(coding_, parts, open.parts_across, part_edge(level), width, height));
+  finish(level, index,
+         parts.size() == 1
+             ? encode(parts.front())
+             : encode(join_parts(coding_, parts, open.parts_across, part_edge(level), width, height)));
+}
+
+void MapBlocks::finish(std::uint32_t level, std::uint32_t block, EncodedBlock&& encoded) {
+  if (finished_)
+    finished_(level, block, std::move(encoded));
+  else
+    encoded_[level][block] = std::move(encoded);
 }
 
 }  // namespace pdsm

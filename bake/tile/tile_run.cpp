@@ -48,6 +48,7 @@ void TileRun::run() {
   std::deque<TexelRect> todo(tiles.begin(), tiles.end());
   done_ = left_out_share_;
   while (!todo.empty()) {
+    if (poll(done_)) throw Error(Failure::interrupted, "bake", "interrupted");
     const TexelRect tile = todo.front();
     todo.pop_front();
     const double share = share_of(tile);
