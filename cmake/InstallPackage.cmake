@@ -19,6 +19,7 @@ endforeach()
 install(FILES runtime/shader/pdsm.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/pdsm)
 if(PDSM_BUILD_BAKE)
   install(TARGETS pdsm RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES bake/cli/completion/pdsm DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endif()
 
 configure_package_config_file(cmake/pdsm-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config.cmake

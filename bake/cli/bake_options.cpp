@@ -2,6 +2,7 @@
 #include "cli/bake_options.h"
 
 #include "cli/options.h"
+#include "cli/shard_bake.h"
 
 namespace pdsm {
 namespace {
@@ -123,6 +124,11 @@ void add_bake_options(CLI::App& sub, BakeCommand& command) {
   add_resource_options(sub, command);
   sub.add_flag("--force", command.force, "Bake maps anew that are up to date by their key");
   add_verify_options(sub, command);
+  add_checkpoint_options(sub, command.checkpoint);
+  sub.add_option_function<std::string>(
+         "--shard", [&command](const std::string& text) { command.shard = parse_share(text); },
+         "Bake the I-th of N shares of one light's map, for `pdsm merge`")
+      ->type_name("I/N");
   sub.add_option("--report", command.report, "Write what the bake took")->type_name("FILE.json");
   sub.add_option("--depfile", command.depfile, "Write what was read, as make and ninja take it")
       ->type_name("FILE");

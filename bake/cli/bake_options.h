@@ -9,8 +9,10 @@
 
 #include "choose/goals.h"
 #include "choose/quality.h"
+#include "cli/checkpoint_choice.h"
 #include "cli/progress_line.h"
 #include "pdsm/bake/bake.h"
+#include "pdsm/bake/shard.h"
 #include "pdsm/format/map_file.h"
 
 namespace pdsm {
@@ -28,6 +30,8 @@ struct BakeCommand {
   std::uint32_t verify_points = 4000;
   std::optional<double> max_error;
   std::optional<ProgressStyle> progress;
+  CheckpointChoice checkpoint;
+  std::optional<Share> shard;
   bool quiet = false, dry_run = false, force = false, verify = false, warnings_as_errors = false;
 };
 

@@ -5,9 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/goal_record.h"
+#include "cli/inputs.h"
 #include "evaluate/map_statistics.h"
 #include "level/light_json.h"
 #include "pdsm/bake/map_key.h"
+#include "pdsm/format/atomic_file.h"
+#include "pdsm/format/error.h"
 
 namespace pdsm {
 namespace {
@@ -55,6 +58,10 @@ Json fit_json(const FittedView& fitted) {
           {"nothing_casts", fitted.nothing_casts}};
 }
 
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 const char* walk_name(Walk walk) {
@@ -77,7 +84,21 @@ std::string bake_metadata(const Light& light, const BakeOptions& options, const 
   if (!asked.is_null()) json["asked"] = asked;
   if (chosen != nullptr) json["achieved"] = achieved_json(*chosen);
   json["modelled"] = modelled_json(report);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(json);
+}
+
+std::string with_modelled(const PenumbraMap& map, const BakeReport& report) {
+  Json json = metadata_of(map);
+  if (!json.is_object()) throw Error(Failure::input, "metadata", "must be a JSON object");
+  json["modelled"] = modelled_json(report);
+  return text_of(json);
+}
+
+void write_report(const std::filesystem::path& path, const nlohmann::ordered_json& report) {
+  const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
 }
 
 nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked, const BakeCosts& costs,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -27,6 +28,13 @@ struct BakeCosts {
 /// The report of one bake (docs/commands.md).
 [[nodiscard]] nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& baked,
                                                  const BakeCosts& costs, const ChosenBake* chosen = nullptr);
+
+/// The metadata of `map` with what was modelled as the report has it now. Throws Error (input) where they are
+/// no JSON object.
+[[nodiscard]] std::string with_modelled(const PenumbraMap& map, const BakeReport& report);
+
+/// Writes a report, as a whole or not at all.
+void write_report(const std::filesystem::path& path, const nlohmann::ordered_json& report);
 
 [[nodiscard]] const char* walk_name(Walk walk);
 

@@ -18,6 +18,7 @@ enum ExitCode : int {
 using Run = std::function<int()>;
 
 void add_bake_command(CLI::App& app, Run& run);
+void add_merge_command(CLI::App& app, Run& run);
 void add_info_command(CLI::App& app, Run& run);
 void add_check_command(CLI::App& app, Run& run);
 void add_query_command(CLI::App& app, Run& run);

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "cli/bake_options.h"
+#include "cli/bake_record.h"
 #include "cli/bake_summary.h"
 #include "cli/command.h"
 #include "cli/depfile.h"
 #include "cli/level_bake.h"
 #include "cli/map_jobs.h"
 #include "cli/progress_line.h"
+#include "cli/shard_bake.h"
 #include "cli/stop_watch.h"
 #include "cli/streams.h"
 #include "pdsm/bake/scene_file.h"
@@ -25,20 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_text(const fs::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(std::as_bytes(std::span(text)));
-  file.commit();
-}
-
-void write_report(const fs::path& path, const nlohmann::ordered_json& report) {
-  write_text(path, report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
 void write_depfile(const BakeCommand& command, const Scene& scene, const MapJobs& jobs) {
   if (command.depfile.empty()) return;
   const fs::path target = jobs.is_level ? jobs.manifest() : jobs.maps.front().output;
-  write_text(command.depfile, depfile_text(target, scene.files));
+  const std::string text = depfile_text(target, scene.files);
+  AtomicFile file(command.depfile);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
 }
 
 void print_prediction(const Scene& scene, const MapJob& job) {
@@ -112,10 +107,15 @@ int run_bake(const BakeCommand& command) {
     throw Error(Failure::usage, "--output", "is required, except for --dry-run");
   }
   check_goals(command);
+  if (command.shard) check_shard(command);
   const StopWatch watch;
   const Scene scene = read_scene(command.scene);
   const double seconds_load = watch.seconds();
   tell_warnings(command, "", scene.warnings);
+  if (command.shard) {
+    run_shard_bake(command, scene);
+    return kExitOk;
+  }
   const MapJobs jobs = plan_jobs(command, scene);
   if (command.dry_run) {
     for (const MapJob& job : jobs.maps) print_prediction(scene, job);

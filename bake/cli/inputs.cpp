@@ -145,6 +145,10 @@ void check_output(const fs::path& output, const std::vector<fs::path>& inputs) {
   const AtomicFile probe(output);
 }
 
+bool same_path(const fs::path& a, const fs::path& b) {
+  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
 std::vector<std::byte> read_bytes(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

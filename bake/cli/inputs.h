@@ -39,6 +39,9 @@ namespace pdsm {
 /// whatever path or link, (resource) when it can't be written.
 void check_output(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
 
+/// Whether two paths, of files that need not exist yet, are one.
+[[nodiscard]] bool same_path(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// All bytes of a regular file. Throws Error (input) "path: reason".
 [[nodiscard]] std::vector<std::byte> read_bytes(const std::filesystem::path& path);
 

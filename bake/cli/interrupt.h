@@ -8,7 +8,7 @@ namespace pdsm {
 void install_interrupt_handler();
 
 /// While one lives, the first signal only sets the flag that interrupted() tells; the second ends the
-/// process. For work that polls and unwinds by itself.
+/// process, and so do 0.8 s in which the work has not unwound. For work that polls and unwinds by itself.
 class PolledInterrupts {
  public:
   PolledInterrupts();

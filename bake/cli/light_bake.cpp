@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <system_error>
 
 #include "cli/bake_record.h"
+#include "cli/checkpoint_choice.h"
 #include "cli/goal_bake.h"
 #include "cli/interrupt.h"
 #include "cli/job_key.h"
@@ -36,13 +38,13 @@ void check_size(const Goals& goals, const BakedMap& baked) {
   throw GoalMissed(fmt::format("--size-budget: metadata makes the file {} bytes", bytes));
 }
 
-BakedMap bake_polled(const LightBakeInput& input, const MapJob& job) {
+BakedMap bake_polled(const LightBakeInput& input, const MapJob& job, Checkpoint* checkpoint) {
   ProgressLine line({job.light->name, ""}, progress_style(input.command));
   const PolledInterrupts interrupts;
   BakeCallbacks callbacks;
   callbacks.progress = [&line](const BakeProgress& progress) { line.show(progress); };
   callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
-  BakedMap baked = bake(input.scene, *job.light, job.options, callbacks);
+  BakedMap baked = bake(input.scene, *job.light, job.options, callbacks, checkpoint);
   if (PolledInterrupts::interrupted()) throw Error(Failure::interrupted, "", "interrupted");
   return baked;
 }
@@ -82,8 +84,11 @@ void write_baked(const LightBakeInput& input, const MapJob& job, BakedMap& baked
 }
 
 void bake_to_options(const LightBakeInput& input, const MapJob& job, LightOutcome& outcome) {
-  BakedMap baked = bake_polled(input, job);
+  const std::unique_ptr<Checkpoint> checkpoint =
+      make_checkpoint(input.command.checkpoint, job.output, input.command.quiet);
+  BakedMap baked = bake_polled(input, job, checkpoint.get());
   write_baked(input, job, baked, nullptr, nullptr, outcome);
+  if (checkpoint) checkpoint->remove();
 }
 
 void bake_to_goals(const LightBakeInput& input, const MapJob& job, const JobKey& key,

@@ -16,6 +16,7 @@ void add_commands(CLI::App& app, Run& run) {
       "Exit codes: 0 ok, 1 the check asked for did not hold, 2 usage, 3 bad input,\n"
       "4 output or resource, 130 interrupted. `pdsm COMMAND --help` tells more.");
   add_bake_command(app, run);
+  add_merge_command(app, run);
   add_info_command(app, run);
   add_check_command(app, run);
   add_query_command(app, run);

@@ -28,11 +28,6 @@ struct Output {
   fs::path path;
 };
 
-/// Whether two paths, of files that need not exist yet, are one.
-bool same_path(const fs::path& a, const fs::path& b) {
-  return fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
-}
-
 void check_distinct(const std::vector<Output>& outputs) {
   for (std::size_t n = 1; n < outputs.size(); ++n) {
     // Maps have names of their own.

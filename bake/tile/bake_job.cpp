@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "part/share_rect.h"
 #include "pdsm/format/error.h"
 #include "trace/map_rays.h"
 #include "trace/map_reach.h"
@@ -124,15 +125,11 @@ BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& 
   seconds_bvh = omp_get_wtime() - start;
 }
 
-std::vector<std::string> BakeSetup::warnings() const {
-  if (light_space.dropped_triangles == 0) return {};
-  return {std::to_string(light_space.dropped_triangles) + " triangles without finite coordinates left out"};
-}
-
-BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted)
+BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share)
     : BakeSetup(scene, light, wanted) {
   options.isa = choose_isa(options.isa);
-  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels});
+  plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels,
+                     share_rect(grid, share)});
   const double start = omp_get_wtime();
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh += omp_get_wtime() - start;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pdsm/bake/bake.h"
+#include "pdsm/bake/shard.h"
 #include "tile/bake_tile.h"
 #include "tile/slope_limit.h"
 #include "trace/caster_triangles.h"
@@ -14,8 +15,6 @@ namespace pdsm {
 /// for it.
 struct BakeSetup {
   BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options);
-
-  [[nodiscard]] std::vector<std::string> warnings() const;
 
   BakeOptions options;  ///< with all defaults filled in, but for the ISA
   FittedView fitted;
@@ -32,7 +31,8 @@ struct BakeSetup {
 /// plan. Bakes and predictions start from it.
 class BakeJob : public BakeSetup {
  public:
-  BakeJob(const Scene& scene, const Light& light, const BakeOptions& options);
+  /// The plan is of a share of the map, all else of the whole.
+  BakeJob(const Scene& scene, const Light& light, const BakeOptions& options, const Share& share = {});
 
   /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
   [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;

@@ -205,7 +205,6 @@ class TileJob {
           std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
     }
     statistics.event_bytes = std::max(statistics.event_bytes, budget_.used());
-    statistics.undarkened_texels += cells_.undarkened_texels();
     return cancelled_ ? TileOutcome::cancelled : TileOutcome::done;
   }
 
@@ -277,6 +276,7 @@ class TileJob {
     std::vector<const EventLog*> logs;
     for (const WalkThread& walker : walkers_) logs.push_back(&walker.logs[b]);
     FittedBlock fitted = fit_block(input_, blocks_[b], logs, thread);
+    fitted.counts.undarkened_texels = cells_.undarkened_texels(blocks_[b].rect);
     for (WalkThread& walker : walkers_) walker.logs[b].clear();
     const double start = omp_get_wtime();
     sink_(std::move(fitted));
@@ -309,10 +309,6 @@ void TileStatistics::add(const TileStatistics& other) {
   accumulate += other.accumulate;
   fit += other.fit;
   rays += other.rays;
-  events += other.events;
-  pieces += other.pieces;
-  empty_texels += other.empty_texels;
-  undarkened_texels += other.undarkened_texels;
   event_bytes = std::max(event_bytes, other.event_bytes);
   slope_bias_sum += other.slope_bias_sum;
   slope_bias_max = std::max(slope_bias_max, other.slope_bias_max);

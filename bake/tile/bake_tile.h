@@ -38,9 +38,7 @@ struct TileInput {
 struct TileStatistics {
   double prepare = 0;                                   ///< wall seconds before the first sample
   double trace = 0, walk = 0, accumulate = 0, fit = 0;  ///< thread seconds
-  std::uint64_t rays = 0, events = 0, event_bytes = 0;
-  std::uint64_t pieces = 0, empty_texels = 0;  ///< of level 0
-  std::uint64_t undarkened_texels = 0;         ///< whose rays were left out: nothing can darken them
+  std::uint64_t rays = 0, event_bytes = 0;
   double slope_bias_sum = 0, slope_bias_max = 0;
 
   void add(const TileStatistics& other);

@@ -49,14 +49,14 @@ class BlockFit {
 
   FittedBlock run(std::span<const EventLog* const> logs) {
     const double start = omp_get_wtime();
-    FittedBlock fitted{block_.index,
-                       static_cast<std::uint32_t>(block_.rect.x1 - block_.rect.x0),
-                       static_cast<std::uint32_t>(block_.rect.y1 - block_.rect.y0),
-                       {}};
+    FittedBlock fitted;
+    fitted.index = block_.index;
+    fitted.width = static_cast<std::uint32_t>(block_.rect.x1 - block_.rect.x0);
+    fitted.height = static_cast<std::uint32_t>(block_.rect.y1 - block_.rect.y0);
     gather_events(logs, fitted.width * fitted.height, thread_.events);
     accumulated_ = omp_get_wtime() - start;
-    thread_.statistics.events += thread_.events.keys.size();
-    fitted.levels.push_back(fit_base());
+    fitted.counts.events = thread_.events.keys.size();
+    fitted.levels.push_back(fit_base(fitted.counts));
     while (fitted.levels.size() <= input_.level_rules.size()) fitted.levels.push_back(fit_next(fitted));
     thread_.statistics.accumulate += accumulated_;
     thread_.statistics.fit += omp_get_wtime() - start - accumulated_;
@@ -64,14 +64,14 @@ class BlockFit {
   }
 
  private:
-  FunctionBlock fit_base() {
+  FunctionBlock fit_base(BlockCounts& counts) {
     FunctionBlock functions = fit_texels(0);
     if (input_.receivers != Receivers::all) {
       for (const float end : block_.domain_ends) functions.domain_end.push_back(end_code(input_.rules, end));
     }
-    thread_.statistics.pieces += functions.first.back();
+    counts.pieces = functions.first.back();
     for (std::size_t t = 1; t < functions.first.size(); ++t)
-      thread_.statistics.empty_texels += functions.first[t] == functions.first[t - 1] ? 1 : 0;
+      counts.empty_texels += functions.first[t] == functions.first[t - 1] ? 1 : 0;
     return functions;
   }
 

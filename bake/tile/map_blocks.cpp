@@ -43,7 +43,8 @@ std::uint32_t part_edge(std::uint32_t level) {
 
 }  // namespace
 
-MapBlocks::MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images) : coding_(coding) {
+MapBlocks::MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images, Finished finished)
+    : coding_(coding), finished_(std::move(finished)) {
   for (const FunctionImage& image : images) {
     assert(image.level == levels_.size());
     open_level(image);
@@ -65,15 +66,22 @@ void MapBlocks::open_level(const FunctionImage& image) {
 }
 
 void MapBlocks::take(FittedBlock&& block) {
+  EncodedBlock base = encode_block(coding_, block.width, block.height, block.levels.front());
+  take(std::move(block), std::move(base));
+}
+
+void MapBlocks::take(FittedBlock&& block, EncodedBlock&& base) {
   assert(block.levels.size() == levels_.size());
+  finish(0, block.index, std::move(base));
   const std::uint32_t bx = block.index % levels_[0].across, by = block.index / levels_[0].across;
-  for (std::uint32_t l = 0; l < levels_.size(); ++l) {
+  for (std::uint32_t l = 1; l < levels_.size(); ++l) {
     // A narrow block at the border has no texel of the upper levels.
-    if (block.width >> l > 0 && block.height >> l > 0) take_part(l, bx, by, std::move(block.levels[l]));
+    if (block.width >> l > 0 && block.height >> l > 0) take_level_part(l, bx, by, std::move(block.levels[l]));
   }
 }
 
-void MapBlocks::take_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by, FunctionBlock&& part) {
+void MapBlocks::take_level_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by,
+                                FunctionBlock&& part) {
   Level& image = levels_[level];
   const std::uint32_t index = (by >> level) * image.across + (bx >> level);
   OpenBlock& open = image.open[index];
@@ -90,10 +98,17 @@ void MapBlocks::take_part(std::uint32_t level, std::uint32_t bx, std::uint32_t b
   const auto encode = [&, across = width, up = height](const FunctionBlock& whole) {
     return encode_block(coding_, across, up, whole);
   };
-  encoded_[level][index] =
-      parts.size() == 1
-          ? encode(parts.front())
-          : encode(join_parts(coding_, parts, open.parts_across, part_edge(level), width, height));
+  finish(level, index,
+         parts.size() == 1
+             ? encode(parts.front())
+             : encode(join_parts(coding_, parts, open.parts_across, part_edge(level), width, height)));
+}
+
+void MapBlocks::finish(std::uint32_t level, std::uint32_t block, EncodedBlock&& encoded) {
+  if (finished_)
+    finished_(level, block, std::move(encoded));
+  else
+    encoded_[level][block] = std::move(encoded);
 }
 
 }  // namespace pdsm

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -17,13 +18,19 @@ namespace pdsm {
 /// What comes out depends on the functions alone.
 class MapBlocks {
  public:
-  /// For levels 0, 1, ... of one view; only the sizes of `images` are looked at.
-  MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images);
+  /// Takes an encoded block of a level. Called from the threads that call take().
+  using Finished = std::function<void(std::uint32_t level, std::uint32_t block, EncodedBlock&& encoded)>;
+
+  /// For levels 0, 1, ... of one view; only the sizes of `images` are looked at. Whole blocks go to
+  /// `finished`; without it, they are kept.
+  MapBlocks(const VertexCoding& coding, std::span<const FunctionImage> images, Finished finished = {});
 
   /// Takes a block with its part of each level, each block once. Any thread, several at once.
   void take(FittedBlock&& block);
+  /// The same where level 0 is encoded already.
+  void take(FittedBlock&& block, EncodedBlock&& base);
 
-  /// The encoded blocks of each image, row by row, once all have been taken. Empties this.
+  /// The encoded blocks of each image that were kept, row by row, once all have been taken. Empties this.
   [[nodiscard]] std::vector<std::vector<EncodedBlock>> release() { return std::move(encoded_); }
 
  private:
@@ -39,9 +46,11 @@ class MapBlocks {
   };
 
   void open_level(const FunctionImage& image);
-  void take_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by, FunctionBlock&& part);
+  void finish(std::uint32_t level, std::uint32_t block, EncodedBlock&& encoded);
+  void take_level_part(std::uint32_t level, std::uint32_t bx, std::uint32_t by, FunctionBlock&& part);
 
   VertexCoding coding_;
+  Finished finished_;
   std::vector<Level> levels_;
   std::vector<std::vector<EncodedBlock>> encoded_;
   std::mutex mutex_;  ///< of the open blocks

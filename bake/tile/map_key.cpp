@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdsm/bake/map_key.h"
 
+#include "tile/bake_facts.h"
 #include "tile/setup_key.h"
 #include "trace/embree_scene.h"
 
@@ -12,7 +13,8 @@ MapKey map_key(const Scene& scene, const Light& light, const BakeOptions& option
                const std::string& version) {
   const std::string isa = options.isa.empty() ? choose_isa("") : options.isa;
   const BakeSetup setup(scene, light, options);
-  return {setup_key(setup, light, isa, version), setup.fitted, setup.warnings()};
+  return {setup_key(setup, light, isa, version), setup.fitted,
+          geometry_warnings(setup.light_space.dropped_triangles)};
 }
 
 }  // namespace pdsm

@@ -47,27 +47,27 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
 }
 
 /// How visibility was found. Numbers are of the map, not of the tiles: the file must not depend on those.
-void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
-  const std::uint64_t texels = std::uint64_t{job.grid.texels[0]} * job.grid.texels[1];
-  const std::uint64_t samples = job.samples.size();
-  const bool casts = job.has_shadows(), parallel = !job.grid.perspective();
+void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureList& list) {
+  const std::uint64_t texels = std::uint64_t{facts.fitted.view.width} * facts.fitted.view.height;
+  const std::uint64_t samples = facts.samples.size();
+  const bool casts = facts.has_shadows, parallel = facts.fitted.view.projection == Projection::orthographic;
   list.either(casts, "shadow maps", "casters lie between light and window",
               "no caster lies between light and window", counted(samples, "shadow maps"));
   if (casts)
-    list.either(job.casters.empty(), "tracing of shadow maps",
+    list.either(!facts.is_projected, "tracing of shadow maps",
                 parallel ? "the light is distant: triangles are projected only for lights with a place"
                          : "light samples lie out of the light's plane, or triangles are many or close to "
                            "the light",
                 "triangles are projected into them", counted(samples, "traced maps"));
-  if (casts && job.shift_law())
+  if (casts && facts.shift_law)
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));
   if (casts)
     list.either(
-        std::isfinite(job.slope_limit.from), "bias of slopes before receivers",
-        fmt::format("receivers lie close behind slopes that add more than {:.3g} m", job.slope_limit.from),
+        std::isfinite(facts.slope_limit_from), "bias of slopes before receivers",
+        fmt::format("receivers lie close behind slopes that add more than {:.3g} m", facts.slope_limit_from),
         "hardly any receiver lies so close behind a slope", counted(samples, "maps of second rays"));
-  list.either(!job.shift_law(), "general scan conversion", "light samples lie out of the light's plane",
+  list.either(!facts.shift_law, "general scan conversion", "light samples lie out of the light's plane",
               parallel ? "the light's rays are parallel: one walk serves all rays"
                        : "all light samples lie in the light's plane: one walk serves all rays",
               counted((texels - 1) * samples, "conversions of a ray"));
@@ -78,12 +78,12 @@ void list_visibility(const BakeJob& job, const TileStatistics& done, FeatureList
 }
 
 /// Where functions are exact.
-void list_domain(const BakeJob& job, FeatureList& list) {
-  const FittedView& fitted = job.fitted;
-  list.either(job.options.receivers != Receivers::all, "domain ends",
+void list_domain(const BakeFacts& facts, FeatureList& list) {
+  const FittedView& fitted = facts.fitted;
+  list.either(facts.receivers != Receivers::all, "domain ends",
               "functions end at the last receiver on each ray",
               "--receivers all asks for functions exact to far");
-  list.either(job.options.receivers == Receivers::surfaces, "surfaces alone",
+  list.either(facts.receivers == Receivers::surfaces, "surfaces alone",
               "--receivers surfaces leaves free space out", "anything may receive in free space");
   list.either(fitted.window_fitted, "fitted window", "fitted to casters and receivers", "given by the scene");
   list.either(fitted.near_fitted, "fitted near", "nearest caster in the hull of light and window",
@@ -91,19 +91,20 @@ void list_domain(const BakeJob& job, FeatureList& list) {
   list.either(fitted.far_fitted, "fitted far", "last receiver in the window", "given by the scene");
 }
 
-void list_levels(const BakeJob& job, FeatureList& list) {
+void list_levels(const BakeFacts& facts, FeatureList& list) {
   std::uint64_t texels = 0;
   for (std::uint32_t level = 1; level <= kAllLevels; ++level)
-    texels += std::uint64_t{job.grid.texels[0] >> level} * (job.grid.texels[1] >> level);
-  list.either(job.mip_levels > 0, "mip levels",
-              "look-ups of up to " + std::to_string(1U << job.mip_levels) +
-                  " texels across find their mean: levels up to " + std::to_string(job.mip_levels),
-              "not asked for by --mip-levels, or the map is one texel across", counted(texels, "functions"));
+    texels += std::uint64_t{facts.fitted.view.width >> level} * (facts.fitted.view.height >> level);
+  list.either(facts.mip_levels > 0, "mip levels",
+              "look-ups of up to " + std::to_string(1U << facts.mip_levels) +
+                  " texels across find their mean: levels up to " + std::to_string(facts.mip_levels),
+              facts.mip_levels_asked > 0 ? "the map is one texel across" : "not asked for by --mip-levels",
+              counted(texels, "functions"));
 }
 
 /// How functions are stored.
-void list_coding(const BakeJob& job, const TileStatistics& done, FeatureList& list) {
-  const VertexCoding& coding = job.rules.coding;
+void list_coding(const BakeFacts& facts, const BlockCounts& done, FeatureList& list) {
+  const VertexCoding& coding = facts.coding;
   VertexCoding colour = coding, deep = coding, fine = coding;
   colour.channels = 3;
   deep.depth_bits = 32;
@@ -119,12 +120,12 @@ void list_coding(const BakeJob& job, const TileStatistics& done, FeatureList& li
 
 }  // namespace
 
-std::vector<ModelledFeature> list_modelled_features(const BakeJob& job, const TileStatistics& done) {
+std::vector<ModelledFeature> list_modelled_features(const BakeFacts& facts, const BlockCounts& done) {
   FeatureList list;
-  list_visibility(job, done, list);
-  list_domain(job, list);
-  list_levels(job, list);
-  list_coding(job, done, list);
+  list_visibility(facts, done, list);
+  list_domain(facts, list);
+  list_levels(facts, list);
+  list_coding(facts, done, list);
   return list.release();
 }
 

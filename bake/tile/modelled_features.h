@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "pdsm/bake/bake.h"
-#include "tile/bake_job.h"
+#include "tile/bake_facts.h"
 
 namespace pdsm {
 
 /// What a bake modelled and what it left out, with the reasons and what leaving it out saved.
-[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeJob& job,
-                                                                  const TileStatistics& done);
+[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const BakeFacts& facts,
+                                                                  const BlockCounts& done);
 
 }  // namespace pdsm

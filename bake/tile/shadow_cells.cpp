@@ -300,10 +300,11 @@ TexelRect ShadowCells::cell_rect(std::int32_t x, std::int32_t y) const {
   return {x0, y0, std::min(x0 + kCellSize, tile.x1), std::min(y0 + kCellSize, tile.y1)};
 }
 
-std::uint64_t ShadowCells::undarkened_texels() const {
+std::uint64_t ShadowCells::undarkened_texels(const TexelRect& rect) const {
+  if (dark.empty()) return 0;
   std::uint64_t texels = 0;
-  for (std::int32_t y = 0; y < up; ++y)
-    for (std::int32_t x = 0; x < across; ++x)
+  for (std::int32_t y = (rect.y0 - tile.y0) / kCellSize; y * kCellSize < rect.y1 - tile.y0; ++y)
+    for (std::int32_t x = (rect.x0 - tile.x0) / kCellSize; x * kCellSize < rect.x1 - tile.x0; ++x)
       if (!may_darken(x, y)) texels += cell_rect(x, y).area();
   return texels;
 }

@@ -40,8 +40,8 @@ struct ShadowCells {
     return dark[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
                 static_cast<std::size_t>(x)] != 0;
   }
-  /// Texels of all cells that no caster may darken.
-  [[nodiscard]] std::uint64_t undarkened_texels() const;
+  /// Texels of all cells in `rect`, whole blocks, that no caster may darken.
+  [[nodiscard]] std::uint64_t undarkened_texels(const TexelRect& rect) const;
 };
 
 /// Everything that decides about a tile's cells. The verdict on a cell depends on the cell's own rays and

@@ -36,18 +36,30 @@ constexpr std::uint32_t kLargestTile = 4096;
 /// Map texels that a walk may cross along one axis; the dragon's cross 50.
 constexpr double kLongestWalk = 1 << 16;
 
+/// Seconds after which a tile should have ended: what an interrupted bake may lose.
+constexpr double kLongestTile = 60;
+/// What ending sooner may cost: the work of all tiles, by that of the tiles that memory allows.
+constexpr double kMostGrowth = 1.25;
+/// Seconds of one thread: a map texel that is looked at (projected 0.03e-6 on the dragon, traced 0.09e-6), a
+/// step of a walk, and the events of a texel and sample until they are fitted.
+constexpr double kSecondsPerRay = 0.06e-6, kSecondsPerStep = 0.2e-9, kSecondsPerFunction = 0.02e-6;
+
 std::uint32_t round_up_to_block(std::uint32_t texels) {
   return blocks_along(texels) * kBlockSize;
 }
 
-std::vector<TexelRect> cut_tiles(const MapGrid& grid, std::uint32_t edge) {
-  const auto width = static_cast<std::int32_t>(grid.texels[0]),
-             height = static_cast<std::int32_t>(grid.texels[1]);
+/// The texels that are baked.
+TexelRect planned_texels(const PlanInput& input) {
+  return input.share.value_or(TexelRect{0, 0, static_cast<std::int32_t>(input.grid.texels[0]),
+                                        static_cast<std::int32_t>(input.grid.texels[1])});
+}
+
+std::vector<TexelRect> cut_tiles(const TexelRect& all, std::uint32_t edge) {
   const auto step = static_cast<std::int32_t>(edge);
   std::vector<TexelRect> tiles;
-  for (std::int32_t y = 0; y < height; y += step) {
-    for (std::int32_t x = 0; x < width; x += step) {
-      tiles.push_back({x, y, std::min(x + step, width), std::min(y + step, height)});
+  for (std::int32_t y = all.y0; y < all.y1; y += step) {
+    for (std::int32_t x = all.x0; x < all.x1; x += step) {
+      tiles.push_back({x, y, std::min(x + step, all.x1), std::min(y + step, all.y1)});
     }
   }
   return tiles;
@@ -61,29 +73,42 @@ double fit_bytes_per_event(std::uint32_t mip_levels, double block_texels) {
 }
 
 std::uint64_t estimate_output(const PlanInput& input) {
-  const std::uint64_t width = input.grid.texels[0], height = input.grid.texels[1];
+  const TexelRect all = planned_texels(input);
+  const auto width = static_cast<std::uint64_t>(all.x1 - all.x0),
+             height = static_cast<std::uint64_t>(all.y1 - all.y0);
   std::uint64_t bytes = width * height * kOutputBytesPerTexel;
   for (std::uint32_t level = 1; level <= input.mip_levels; ++level)
     bytes += (width >> level) * (height >> level) * kLevelBytesPerTexel;
   return bytes;
 }
 
+/// Map texels that one ray crosses, about: what the footprint of `rays` has beyond the rays' own texels.
+double steps_of(const MapGrid& grid, const TexelRect& footprint, const TexelRect& rays) {
+  const double beyond_x = footprint.x1 - footprint.x0 - (rays.x1 - rays.x0) * grid.ratio[0].maps_per_texel();
+  const double beyond_y = footprint.y1 - footprint.y0 - (rays.y1 - rays.y0) * grid.ratio[1].maps_per_texel();
+  return 1 + std::max(0.0, beyond_x) + std::max(0.0, beyond_y);
+}
+
 TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   TilePlan plan;
   plan.edge = edge;
-  plan.tiles = cut_tiles(input.grid, edge);
+  const TexelRect all = planned_texels(input);
+  plan.tiles = cut_tiles(all, edge);
   const TexelRect& first = plan.tiles.front();
   std::uint64_t largest = 0;
-  double margin_factor = 0;
+  double margin_factor = 0, steps = 0;
   for (const LightSample& sample : input.samples) {
     const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
     const std::uint64_t bytes = SampleMap::bytes_for(footprint, input.grid.ratio[0].fine);
     // What is nearest is found in an image of its own, where maps are projected.
     largest = std::max(largest, bytes + DepthImage::bytes_for(footprint));
     margin_factor += static_cast<double>(bytes / sizeof(float)) / static_cast<double>(first.area());
+    steps += steps_of(input.grid, footprint, first);
   }
-  const std::uint64_t texels = std::uint64_t{input.grid.texels[0]} * input.grid.texels[1];
-  plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(texels));
+  plan.rays = static_cast<std::uint64_t>(margin_factor * static_cast<double>(all.area()));
+  plan.tile_seconds = static_cast<double>(first.area()) / input.threads *
+                      (kSecondsPerRay * margin_factor + kSecondsPerStep * steps +
+                       kSecondsPerFunction * static_cast<double>(input.samples.size()));
   const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(first.area()));
   const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
   const double fit_bytes = fit_bytes_per_event(input.mip_levels, block_texels) * block_events;
@@ -130,6 +155,20 @@ void check_walk_length(const PlanInput& input) {
                           static_cast<std::int64_t>(std::min(longest, 1e18)), why));
 }
 
+/// Cuts the tiles of `plan`, which fit, until one takes no longer than it should.
+TilePlan with_short_tiles(const PlanInput& input, TilePlan plan) {
+  const auto work = [](const TilePlan& p) {
+    return p.tile_seconds / static_cast<double>(p.tiles.front().area());
+  };
+  const double most_work = kMostGrowth * work(plan);
+  while (plan.tile_seconds > kLongestTile && plan.edge > kBlockSize) {
+    TilePlan shorter = make_plan(input, round_up_to_block(plan.edge / 2));
+    if (work(shorter) > most_work) break;
+    plan = std::move(shorter);
+  }
+  return plan;
+}
+
 }  // namespace
 
 TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk walk, const TexelRect& rays) {
@@ -141,12 +180,14 @@ TexelRect sample_footprint(const MapGrid& grid, const LightSample& sample, Walk 
 
 TilePlan plan_tiles(const PlanInput& input) {
   check_walk_length(input);
-  const std::uint32_t whole = round_up_to_block(std::max(input.grid.texels[0], input.grid.texels[1]));
+  const TexelRect all = planned_texels(input);
+  const std::uint32_t whole =
+      round_up_to_block(static_cast<std::uint32_t>(std::max(all.x1 - all.x0, all.y1 - all.y0)));
   if (input.edge != 0) return make_plan(input, std::min(input.edge, whole));
   for (std::uint32_t edge = std::min(whole, kLargestTile); edge > kBlockSize;
        edge = round_up_to_block(edge / 2)) {
     TilePlan plan = make_plan(input, edge);
-    if (fits(input, plan)) return plan;
+    if (fits(input, plan)) return with_short_tiles(input, std::move(plan));
   }
   TilePlan plan = make_plan(input, kBlockSize);
   if (plan.event_limit == 0) {

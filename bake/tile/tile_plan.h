@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace pdsm {
 struct TilePlan {
   std::uint32_t edge = 0;        ///< texels, a multiple of kBlockSize
   std::vector<TexelRect> tiles;  ///< texels of the map, row by row
+  double tile_seconds = 0;       ///< that the largest tile takes, roughly
   std::uint64_t rays = 0;
   std::uint64_t map_bytes = 0;     ///< what all threads own: sample maps, blocks being fitted
   std::uint64_t event_limit = 0;   ///< bytes that the events of a tile may take
@@ -28,13 +30,15 @@ struct PlanInput {
   std::span<const LightSample> samples;
   Walk walk;
   std::uint32_t threads;
-  std::uint64_t memory;          ///< bytes
-  std::uint32_t edge;            ///< 0: choose
-  std::uint32_t mip_levels = 0;  ///< above 0
+  std::uint64_t memory;                 ///< bytes
+  std::uint32_t edge;                   ///< 0: choose
+  std::uint32_t mip_levels = 0;         ///< above 0
+  std::optional<TexelRect> share = {};  ///< whole blocks that are baked; default all
 };
 
 /// The tiles that trace the fewest rays within `memory`: small tiles waste rays on margins, large ones
-/// need room for events. Throws Error (resource) when the smallest tile does not fit.
+/// need room for events. Tiles that would take long are cut further where that hardly costs rays, so that
+/// an interrupted bake loses little. Throws Error (resource) when the smallest tile does not fit.
 [[nodiscard]] TilePlan plan_tiles(const PlanInput& input);
 
 /// The map texels that `rays` (texels) need of one sample's map.

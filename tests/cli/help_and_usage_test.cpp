@@ -4,7 +4,7 @@
 namespace pdsm {
 namespace {
 
-const std::vector<std::string> kCommands{"bake",   "info",   "check",  "query",  "truth",
+const std::vector<std::string> kCommands{"bake",   "merge",  "info",   "check",  "query", "truth",
                                          "verify", "render", "export", "import", "diff"};
 
 class Help : public ScratchScene {};

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,6 +65,8 @@ std::vector<char*> make_argv(const std::vector<std::string>& arguments) {
   } else {
     dup2(out, STDOUT_FILENO);
   }
+  const rlimit limit{setup.file_limit, setup.file_limit};
+  if (setup.file_limit > 0 && setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(kNotRun);
   const bool ready = setup.folder.empty() || chdir(setup.folder.c_str()) == 0;
   const bool rights = !setup.unprivileged || geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
   if (ready && rights) execv(argv.front(), argv.data());
@@ -133,7 +136,7 @@ bool wait_until(pid_t pid, Done&& done) {
     if (done()) return true;
     const std::string state = status_field(pid, "State:");
     if (state.empty() || state == "Z") return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return false;
 }
@@ -186,6 +189,14 @@ bool RunningPdsm::wait_for_handler(int signal) const {
 
 bool RunningPdsm::wait_for_cpu_seconds(double seconds) const {
   return wait_until(pid_, [&] { return cpu_seconds(pid_) >= seconds; });
+}
+
+bool RunningPdsm::wait_for_file(const std::filesystem::path& file, std::uintmax_t bytes) const {
+  return wait_until(pid_, [&] {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(file, missing);
+    return !missing && size >= bytes;
+  });
 }
 
 void RunningPdsm::send(int signal) const {

@@ -23,6 +23,8 @@ struct RunSetup {
   std::filesystem::path folder;  ///< to run in; empty: this one
   Stdout out = Stdout::pipe;
   bool unprivileged = false;  ///< give up root's rights, when we have them
+  /// Bytes behind which no file may be written, where not 0: the write that tries kills the process.
+  std::uint64_t file_limit = 0;
 };
 
 /// Exit code that tells that the binary could not be run at all.
@@ -43,6 +45,8 @@ class RunningPdsm {
   [[nodiscard]] bool wait_for_handler(int signal) const;
   /// Waits until it has used this much processor time; false when it ended before.
   [[nodiscard]] bool wait_for_cpu_seconds(double seconds) const;
+  /// Waits until a file has at least so many bytes; false when it ended before.
+  [[nodiscard]] bool wait_for_file(const std::filesystem::path& file, std::uintmax_t bytes) const;
   void send(int signal) const;
   /// Writes to its stdin.
   void say(const std::string& text) const;

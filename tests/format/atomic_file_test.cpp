@@ -2,7 +2,6 @@
 #include "pdsm/format/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "file_size_limit.h"
 #include "pdsm/format/error.h"
 #include "pdsm/format/map_file.h"
 #include "random_map.h"
@@ -20,32 +20,13 @@ namespace pdsm {
 namespace {
 
 using testing::file_content;
+using testing::FileSizeLimit;
 using testing::ScratchFolder;
 
 std::vector<std::byte> text(const std::string& content) {
   const auto bytes = std::as_bytes(std::span(content));
   return {bytes.begin(), bytes.end()};
 }
-
-/// Files may not grow past `bytes` while this lives: stands for a full disk, also for root.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_limit_);
-    const rlimit limit{bytes, old_limit_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_limit_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit old_limit_{};
-  void (*old_handler_)(int);
-};
 
 /// `action` throws a resource error that begins with `path`.
 template <typename Action>

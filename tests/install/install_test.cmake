@@ -26,6 +26,24 @@ if(NOT attenuation STREQUAL "0.48")
   message(FATAL_ERROR "look_up printed ${attenuation}, not 0.48")
 endif()
 
+if(WITH_BAKE)
+  build_example(bake_in_memory)
+  # A floor of 12 x 12 m under a roof of 2 x 2: dark below the roof, lit beside it.
+  run(${SCRATCH}/bake_in_memory/bake_in_memory ${SCRATCH}/memory.pdsm)
+  string(REGEX MATCH "below 1, beside 0" found "${output}")
+  if(NOT found)
+    message(FATAL_ERROR "bake_in_memory printed ${output}")
+  endif()
+  run(${BUILD}/bin/pdsm check ${SCRATCH}/memory.pdsm)
+  # Cancelled, it writes nothing and says so.
+  file(REMOVE ${SCRATCH}/memory.pdsm)
+  execute_process(COMMAND ${SCRATCH}/bake_in_memory/bake_in_memory ${SCRATCH}/memory.pdsm 0
+                  RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
+  if(NOT result EQUAL 130 OR EXISTS ${SCRATCH}/memory.pdsm OR NOT error MATCHES "bake: interrupted")
+    message(FATAL_ERROR "a cancelled bake_in_memory: ${result}, ${error}")
+  endif()
+endif()
+
 if(WITH_GL)
   build_example(gl_shadow)
   # expect_pixel(COLUMN ROW VALUE): of the picture, rows from the bottom, red.

@@ -16,6 +16,8 @@
 /// Paper: Saint-Amour, Paquette, Poulin, "Penumbra Deep Shadow Maps", 2004; docs/maths.md has ours.
 namespace pdsm {
 
+class Checkpoint;
+
 /// How a PDSM ray is converted to texels of a sample's shadow map (docs/maths.md, "The two walks").
 enum class Walk {
   midpoint,  ///< the thesis' 8-connected midpoint line: one texel a major step
@@ -79,7 +81,8 @@ struct ModelledFeature {
   std::string saved;   ///< what leaving it out saved: a number and of what; empty where nothing can be said
 };
 
-/// What a bake did. Seconds are wall-clock; walk and accumulate are shares of the thread time.
+/// What a bake did. Seconds are wall-clock; trace, walk, accumulate and fit are shares of the thread time,
+/// which of a bake that was gone on with are those of all its runs, where the total is of the last.
 struct BakeReport {
   double seconds_bvh = 0, seconds_trace = 0, seconds_walk = 0, seconds_accumulate = 0, seconds_fit = 0,
          seconds_total = 0;
@@ -124,9 +127,10 @@ struct BakedMap {
 /// Bakes `light` of `scene`. The result depends on the arguments and the ISA alone, whatever the number of
 /// threads, the tile and the memory. Throws Error (usage) "--option: reason" for options out of range,
 /// (input) for what the scene makes impossible, (resource) when `memory` can't be met, (interrupted).
-/// One bake uses `options.threads` threads; several bakes at once are safe.
+/// One bake uses `options.threads` threads; several bakes at once are safe. With a `checkpoint`
+/// (checkpoint.h), a bake that did not come to its end is gone on with, to the same result.
 [[nodiscard]] BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options,
-                            const BakeCallbacks& callbacks = {});
+                            const BakeCallbacks& callbacks = {}, Checkpoint* checkpoint = nullptr);
 
 /// What bake() with the same arguments would take. Same faults.
 [[nodiscard]] BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOptions& options);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part/facts_record.h"
+
+#include <bit>
+#include <cmath>
+
+#include "bytes.h"
+#include "invariants.h"
+#include "part/part_layout.h"
+
+namespace pdsm {
+namespace {
+
+/// Bits of FactsRecord::flags.
+enum FactFlag : std::uint32_t {
+  kWindowFitted = 1,
+  kNearFitted = 2,
+  kFarFitted = 4,
+  kNothingCasts = 8,
+  kHasShadows = 16,
+  kIsProjected = 32,
+  kShiftLaw = 64,
+  kAllFlags = 127
+};
+
+std::uint32_t flags_of(const BakeFacts& facts) {
+  const auto bit = [](bool set, FactFlag flag) { return set ? static_cast<std::uint32_t>(flag) : 0U; };
+  return bit(facts.fitted.window_fitted, kWindowFitted) | bit(facts.fitted.near_fitted, kNearFitted) |
+         bit(facts.fitted.far_fitted, kFarFitted) | bit(facts.fitted.nothing_casts, kNothingCasts) |
+         bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
+         bit(facts.shift_law, kShiftLaw);
+}
+
+void set_flags(std::uint32_t flags, BakeFacts& facts) {
+  facts.fitted.window_fitted = (flags & kWindowFitted) != 0;
+  facts.fitted.near_fitted = (flags & kNearFitted) != 0;
+  facts.fitted.far_fitted = (flags & kFarFitted) != 0;
+  facts.fitted.nothing_casts = (flags & kNothingCasts) != 0;
+  facts.has_shadows = (flags & kHasShadows) != 0;
+  facts.is_projected = (flags & kIsProjected) != 0;
+  facts.shift_law = (flags & kShiftLaw) != 0;
+}
+
+bool is_sound(const FactsRecord& record) {
+  for (const double x : {record.receivers_outside, record.epsilon, record.depth_tolerance, record.bias}) {
+    if (!std::isfinite(x) || x < 0) return false;
+  }
+  // Infinite where no slope is limited.
+  if (std::isnan(record.slope_limit_from) || record.slope_limit_from < 0) return false;
+  return record.projection <= static_cast<std::uint32_t>(Projection::orthographic) &&
+         record.walk <= static_cast<std::uint32_t>(Walk::exact) &&
+         record.receivers <= static_cast<std::uint32_t>(Receivers::surfaces) && record.flags <= kAllFlags;
+}
+
+BakeFacts facts_of(const FactsRecord& record) {
+  BakeFacts facts;
+  View& view = facts.fitted.view;
+  view.world_to_view = {record.rotation, record.translation};
+  view.projection = static_cast<Projection>(record.projection);
+  view.window = record.window;
+  view.near_depth = record.near_depth;
+  view.far_depth = record.far_depth;
+  view.width = record.width;
+  view.height = record.height;
+  facts.fitted.receivers_outside = record.receivers_outside;
+  facts.coding = {record.depth_bits, record.value_bits, record.channels, record.value_max};
+  facts.mip_levels = record.mip_levels;
+  facts.mip_levels_asked = record.mip_levels_asked;
+  facts.map_width = record.map_width;
+  facts.map_height = record.map_height;
+  facts.epsilon = record.epsilon;
+  facts.depth_tolerance = record.depth_tolerance;
+  facts.bias = record.bias;
+  facts.slope_limit_from = record.slope_limit_from;
+  facts.walk = static_cast<Walk>(record.walk);
+  facts.receivers = static_cast<Receivers>(record.receivers);
+  facts.dropped_triangles = record.dropped_triangles;
+  set_flags(record.flags, facts);
+  return facts;
+}
+
+/// Whether a map of this view and these levels can be.
+bool makes_a_map(const BakeFacts& facts) {
+  const View& view = facts.fitted.view;
+  if (check_coding(facts.coding) || check_view(view, facts.coding)) return false;
+  const auto most = static_cast<std::uint32_t>(std::bit_width(std::min(view.width, view.height)) - 1);
+  return facts.mip_levels <= std::min(most, kMostMipLevels);
+}
+
+bool read_samples(std::uint32_t count, ByteReader& reader, std::vector<LightSample>& samples) {
+  if (std::uint64_t{count} * sizeof(FactsSample) > reader.remaining()) return false;
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const auto record = reader.value<FactsSample>();
+    const LightSample& sample =
+        samples.emplace_back(LightSample{record.position, record.jitter, record.weight});
+    if (record.reserved != 0 || check_sample(sample)) return false;
+  }
+  return true;
+}
+
+bool read_text(std::uint32_t size, ByteReader& reader, std::string& text) {
+  if (size > reader.remaining()) return false;
+  text.resize(size);
+  reader.array(std::span(text.data(), text.size()));
+  return reader.ok();
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_facts(const DescribedFacts& described) {
+  const BakeFacts& facts = described.facts;
+  const View& view = facts.fitted.view;
+  const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
+  FactsRecord record;
+  record.rotation = view.world_to_view.rotation;
+  record.translation = view.world_to_view.translation;
+  record.window = view.window;
+  record.near_depth = view.near_depth;
+  record.far_depth = view.far_depth;
+  record.receivers_outside = facts.fitted.receivers_outside;
+  record.epsilon = facts.epsilon;
+  record.depth_tolerance = facts.depth_tolerance;
+  record.bias = facts.bias;
+  record.slope_limit_from = facts.slope_limit_from;
+  record.dropped_triangles = facts.dropped_triangles;
+  record.projection = static_cast<std::uint32_t>(view.projection);
+  record.width = view.width;
+  record.height = view.height;
+  record.mip_levels = facts.mip_levels;
+  record.mip_levels_asked = facts.mip_levels_asked;
+  record.depth_bits = facts.coding.depth_bits;
+  record.value_bits = facts.coding.value_bits;
+  record.channels = facts.coding.channels;
+  record.value_max = facts.coding.value_max;
+  record.map_width = facts.map_width;
+  record.map_height = facts.map_height;
+  record.walk = static_cast<std::uint32_t>(facts.walk);
+  record.receivers = static_cast<std::uint32_t>(facts.receivers);
+  record.flags = flags_of(facts);
+  record.samples = size(facts.samples);
+  record.isa_bytes = size(facts.isa);
+  record.description_bytes = size(described.description);
+  std::vector<std::byte> bytes;
+  append_value(bytes, record);
+  for (const LightSample& sample : facts.samples)
+    append_value(bytes, FactsSample{sample.position, sample.jitter, sample.weight, 0});
+  append_array<char>(bytes, facts.isa);
+  append_array<char>(bytes, described.description);
+  return bytes;
+}
+
+std::optional<DescribedFacts> decode_facts(std::span<const std::byte> payload) {
+  ByteReader reader(payload);
+  const auto record = reader.value<FactsRecord>();
+  if (!reader.ok() || record.reserved != 0 || !is_sound(record)) return {};
+  DescribedFacts described{facts_of(record), {}};
+  const bool whole =
+      makes_a_map(described.facts) && read_samples(record.samples, reader, described.facts.samples) &&
+      read_text(record.isa_bytes, reader, described.facts.isa) &&
+      read_text(record.description_bytes, reader, described.description) && reader.remaining() == 0;
+  if (!whole || described.facts.samples.empty() || check_metadata(described.description)) return {};
+  return described;
+}
+
+}  // namespace pdsm

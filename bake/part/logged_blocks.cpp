@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "part/logged_blocks.h"
+
+#include <mutex>
+#include <utility>
+
+#include "part/part_layout.h"
+#include "tile/block_grid.h"
+#include "tile/parallel_failure.h"
+
+namespace pdsm {
+
+PartShape part_shape(const BakeJob& job) {
+  return {job.rules.coding, job.grid.texels[0], job.grid.texels[1], job.mip_levels,
+          job.options.receivers != Receivers::all};
+}
+
+TileRunOutput logged_output(const BakeJob& job, const BakeCallbacks& callbacks, CheckpointLog* log,
+                            EncodedSink sink) {
+  TileRunOutput output;
+  output.callbacks = callbacks;
+  output.take = [log, coding = job.rules.coding, sink = std::move(sink)](FittedBlock&& block) {
+    EncodedBlock base = encode_block(coding, block.width, block.height, block.levels.front());
+    if (log != nullptr) log->keep(coding, block, base);
+    sink(std::move(block), std::move(base));
+  };
+  if (log == nullptr) return output;
+  output.tile_done = [log](const TileStatistics& tile) { log->keep(tile); };
+  output.idle = [log] { log->poll(); };
+  return output;
+}
+
+TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job, TileRun& run,
+                         const BlockSink& sink) {
+  const std::vector<PartRecord> records = log.begin(header);
+  const PartShape shape = part_shape(job);
+  std::vector<bool> is_there(block_count(job.grid));
+  std::mutex mutex;
+  ParallelFailure failure;
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(job.options.threads))
+  for (std::size_t n = 0; n < records.size(); ++n) {
+    failure.guard([&] {
+      if (records[n].type != kBlockRecord) return;
+      auto block = read_block(shape, records[n].payload);
+      if (!block) return;
+      {
+        const std::lock_guard guard(mutex);
+        if (is_there[block->index]) return;
+        is_there[block->index] = true;
+        run.leave_out(block->index, block->counts);
+      }
+      sink(std::move(*block));
+    });
+  }
+  failure.rethrow();
+  TileStatistics taken;
+  for (const PartRecord& record : records) {
+    if (record.type != kTileRecord) continue;
+    if (const auto tile = read_tile(record.payload)) taken.add(*tile);
+  }
+  log.release_records();
+  return taken;
+}
+
+}  // namespace pdsm

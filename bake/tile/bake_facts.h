@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pdsm/bake/bake.h"
+#include "tile/bake_job.h"
+#include "tile/bake_tile.h"
+
+namespace pdsm {
+
+/// What is known of a bake before its first tile: with the blocks and their counts, all that there is to say
+/// about the result. The same for all shards of a bake.
+struct BakeFacts {
+  FittedView fitted;
+  VertexCoding coding;
+  std::vector<LightSample> samples;
+  std::uint32_t mip_levels = 0, mip_levels_asked = 0;  ///< above 0
+  std::uint32_t map_width = 0, map_height = 0;         ///< texels of each sample map over the window
+  double epsilon = 0, depth_tolerance = 0, bias = 0;
+  Walk walk = Walk::exact;
+  Receivers receivers = Receivers::volume;
+  std::string isa;
+  bool has_shadows = true;   ///< some function may be other than empty
+  bool is_projected = true;  ///< maps are projected, not traced
+  bool shift_law = true;
+  double slope_limit_from = 0;  ///< SlopeLimit; infinite where no slope is limited
+  std::uint64_t dropped_triangles = 0;
+};
+
+[[nodiscard]] BakeFacts gather_facts(const BakeJob& job);
+
+/// The map without its blocks and metadata.
+[[nodiscard]] PenumbraMap make_map_frame(const BakeFacts& facts);
+
+/// All of a report but for seconds, tiles and memory. `taken` is of the blocks that `done` counts.
+[[nodiscard]] BakeReport make_report(const BakeFacts& facts, const BlockCounts& done,
+                                     const TileStatistics& taken);
+
+/// Of geometry that a bake left out.
+[[nodiscard]] std::vector<std::string> geometry_warnings(std::uint64_t dropped_triangles);
+
+/// Adds the threads' seconds of `taken` to a report, as wall-clock of so many threads.
+void add_seconds(const TileStatistics& taken, double threads, BakeReport& report);
+
+}  // namespace pdsm
