@@ -15,6 +15,7 @@ namespace pdsm {
 /// One triangle in light space and where it lies with respect to a region.
 struct LightTriangle {
   std::array<glm::dvec3, 3> corners;
+  glm::uvec3 vertices;            ///< of the mesh, that the corners are
   std::uint32_t outside_all = 0;  ///< half-spaces that no corner is in: the triangle lies outside
   std::uint32_t outside_any = 0;  ///< half-spaces that some corner is not in: 0 when it lies inside
 };
@@ -58,7 +59,7 @@ void LightSpace::visit_triangles(const Geometry& geometry, const ConvexRegion& r
     if (t.x >= count || t.y >= count || t.z >= count) continue;
     const std::uint32_t a = outside[t.x], b = outside[t.y], c = outside[t.z];
     if (((a | b | c) & kNotFinite) != 0) continue;
-    visit(LightTriangle{{positions[t.x], positions[t.y], positions[t.z]}, a & b & c, a | b | c});
+    visit(LightTriangle{{positions[t.x], positions[t.y], positions[t.z]}, t, a & b & c, a | b | c});
   }
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "light/convex_clip.h"
 #include "light/light_geometry.h"
@@ -77,6 +78,24 @@ struct ReceiverBounds {
     low = glm::min(low, w);
     high = glm::max(high, w);
   }
+};
+
+/// Vertices of one geometry after the other: those of a mesh are each shared by about six triangles.
+class VertexSet {
+ public:
+  [[nodiscard]] bool has_all(const Geometry& geometry, const glm::uvec3& vertices) {
+    if (geometry_ != &geometry) {
+      geometry_ = &geometry;
+      has_.assign(geometry.mesh->positions.size(), 0);
+    }
+    return has_[vertices.x] != 0 && has_[vertices.y] != 0 && has_[vertices.z] != 0;
+  }
+  /// Of the geometry that has_all() was asked about last.
+  void add(const glm::uvec3& vertices) { has_[vertices.x] = has_[vertices.y] = has_[vertices.z] = 1; }
+
+ private:
+  const Geometry* geometry_ = nullptr;
+  std::vector<std::uint8_t> has_;
 };
 
 enum class Role { receiver, caster };
@@ -158,10 +177,14 @@ ReceiverBounds ViewFitter::receiver_bounds(const Window& window) const {
   for (const Role role : {Role::receiver, Role::caster}) {
     ReceiverBounds bounds;
     bounds.of_casters = role == Role::caster;
+    VertexSet included;
     visit_parts(
         role, region,
         [&](const Geometry& geometry, const LightTriangle& triangle, std::span<const glm::dvec3> part) {
+          const bool is_whole = triangle.outside_any == 0;
+          if (is_whole && included.has_all(geometry, triangle.vertices)) return;
           if (role == Role::receiver && !faces_light(geometry, triangle)) return;
+          if (is_whole) included.add(triangle.vertices);
           for (const glm::dvec3& p : part) bounds.include(space_, spread_, p);
         });
     if (bounds.depth > 0) return bounds;
