@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "cli/light_bake.h"
 #include "cli/options.h"
 #include "cli/shard_check.h"
+#include "cli/stop_watch.h"
 #include "cli/streams.h"
 #include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
@@ -55,9 +55,9 @@ int run_merge(const MergeCommand& command) {
   options.width = merged.map.views.front().width;
   options.height = merged.map.views.front().height;
   BakeCosts costs;
-  const auto start = std::chrono::steady_clock::now();
+  const StopWatch watch;
   costs.file_bytes = write_encoded_map(merged.map, merged.blocks, command.output);
-  costs.seconds_write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  costs.seconds_write = watch.seconds();
   if (!command.quiet) {
     for (const std::string& warning : merged.report.warnings) write_warning(warning);
   }

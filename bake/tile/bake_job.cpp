@@ -9,7 +9,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "part/share_rect.h"
+#include "tile/share_rect.h"
 #include "pdsm/format/error.h"
 #include "trace/map_rays.h"
 #include "trace/map_reach.h"

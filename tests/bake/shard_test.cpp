@@ -11,7 +11,7 @@
 
 #include "part/part_layout.h"
 #include "part/part_records.h"
-#include "part/share_rect.h"
+#include "tile/share_rect.h"
 #include "pdsm/format/error.h"
 #include "scratch_folder.h"
 #include "support/checkpoint_case.h"

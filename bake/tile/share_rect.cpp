@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "part/share_rect.h"
+#include "tile/share_rect.h"
 
 #include <algorithm>
 #include <cmath>
