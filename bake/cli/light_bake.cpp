@@ -70,9 +70,6 @@ void write_baked(const LightBakeInput& input, const MapJob& job, BakedMap& baked
   costs.file_bytes = write_encoded_map(baked.map, baked.blocks, job.output);
   costs.seconds_load = input.seconds_load;
   costs.seconds_write = watch.seconds();
-  if (!input.command.quiet) {
-    for (const std::string& warning : baked.report.warnings) write_warning(job.light->name + ": " + warning);
-  }
   tell_outside(input.command, *job.light, baked.fitted);
   outcome.report = bake_report(job.options, baked, costs, chosen);
   outcome.key = baked.report.key;

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "tile/share_rect.h"
 #include "pdsm/format/error.h"
+#include "tile/share_rect.h"
 #include "trace/map_rays.h"
 #include "trace/map_reach.h"
 #include "walk/ray_path.h"

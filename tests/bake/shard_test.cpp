@@ -11,12 +11,12 @@
 
 #include "part/part_layout.h"
 #include "part/part_records.h"
-#include "tile/share_rect.h"
 #include "pdsm/format/error.h"
 #include "scratch_folder.h"
 #include "support/checkpoint_case.h"
 #include "support/random.h"
 #include "tile/block_grid.h"
+#include "tile/share_rect.h"
 
 namespace pdsm::test {
 namespace {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t kTexels = 192;  // the grid of 48 x 48 packets asks every texel once
 constexpr double kFar = 8, kConstant = 1e-3;
-/// Of what a slope adds, a hundredth of a metre and more: depths of up to 8 m are traced to 2^-18 of themselves.
+/// Of what a slope adds, a hundredth of a metre and more: depths of up to 8 m are traced to 2^-18 of
+/// themselves.
 constexpr double kRounding = 8 * 0x1p-18 / 0.01;
 
 MapGrid make_grid() {
