@@ -31,17 +31,21 @@ void accumulate(std::span<EventKey> keys, StepFunction& function, std::vector<Ev
 
 void sum_events(std::span<const EventKey> keys, StepFunction& function) {
   assert(std::is_sorted(keys.begin(), keys.end()));
-  function.depth.clear();
-  function.count.clear();
-  std::uint32_t blocked = 0;
-  for (std::size_t n = 0; n < keys.size();) {
-    const float depth = key_depth(keys[n]);
-    const std::uint32_t before = blocked;
-    for (; n < keys.size() && key_depth(keys[n]) == depth; ++n) blocked += key_unblocks(keys[n]) ? ~0u : 1u;
-    if (blocked == before) continue;
-    function.depth.push_back(depth);
-    function.count.push_back(blocked);
+  function.depth.resize(keys.size());
+  function.count.resize(keys.size());
+  std::size_t steps = 0;
+  std::uint32_t blocked = 0, before = 0;
+  // Each key writes a step, and the last one of its depth keeps it: nobody can foresee which are.
+  for (std::size_t n = 0; n < keys.size(); ++n) {
+    blocked += key_unblocks(keys[n]) ? ~0u : 1u;
+    function.depth[steps] = key_depth(keys[n]);
+    function.count[steps] = blocked;
+    const bool ends = n + 1 == keys.size() || key_depth(keys[n + 1]) != key_depth(keys[n]);
+    steps += (ends & (blocked != before)) ? 1 : 0;
+    before = ends ? blocked : before;
   }
+  function.depth.resize(steps);
+  function.count.resize(steps);
 }
 
 }  // namespace pdsm

@@ -136,16 +136,19 @@ class FunctionFit {
                                         const PieceLine& safe, const PieceLine& best) const {
     double share = 1;
     const double length = static_cast<double>(end - at);
+    double from = safe.begin, to = best.begin;
+    const auto stay_within = [&](double low, double high) {
+      if (to > high) share = std::min(share, (high - from) / (to - from));
+      if (to < low) share = std::min(share, (from - low) / (from - to));
+    };
     for (std::size_t r = first_run; r < tube_.size() && tube_[r].begin < end; ++r) {
+      const auto low = static_cast<double>(tube_[r].low), high = static_cast<double>(tube_[r].high);
+      stay_within(low, high);
       const std::int64_t run_close = r + 1 < tube_.size() ? std::min(end, run_end(r)) : end;
-      for (const std::int64_t x : {std::max(at, tube_[r].begin), run_close}) {
-        const double t = static_cast<double>(x - at) / length;
-        const double from = safe.begin + t * (safe.end - safe.begin),
-                     to = best.begin + t * (best.end - best.begin);
-        const auto low = static_cast<double>(tube_[r].low), high = static_cast<double>(tube_[r].high);
-        if (to > high) share = std::min(share, (high - from) / (to - from));
-        if (to < low) share = std::min(share, (from - low) / (from - to));
-      }
+      const double t = static_cast<double>(run_close - at) / length;
+      from = safe.begin + t * (safe.end - safe.begin);
+      to = best.begin + t * (best.end - best.begin);
+      stay_within(low, high);
     }
     return std::max(share, 0.0);
   }

@@ -35,9 +35,7 @@ CountRange join(const CountRange& a, const CountRange& b) {
 /// foresee.
 class SlidingRange {
  public:
-  SlidingRange(std::vector<CountRange>& older, const StepFunction& function)
-      : older_(older), count_(function.count.data()) {
-    older_.resize(function.count.size() + 1);
+  SlidingRange(CountRange* older, const std::uint32_t* counts) : older_(older), count_(counts) {
     older_[0] = range_of(0);
   }
   /// Moves the range's begin, and its end to `end`.
@@ -49,7 +47,12 @@ class SlidingRange {
     newer_from_ = end;
     newer_ = {};
   }
-  void push(std::uint32_t segment) { newer_ = join(newer_, range_of(segment)); }
+  /// Takes in a segment, of at least 1, or nothing if it does not `come` yet.
+  void push(std::uint32_t segment, bool comes) {
+    const std::uint32_t count = count_[segment - 1];
+    newer_.least = comes ? std::min(newer_.least, count) : newer_.least;
+    newer_.greatest = comes ? std::max(newer_.greatest, count) : newer_.greatest;
+  }
   [[nodiscard]] CountRange from(std::uint32_t first) const { return join(older_[first], newer_); }
 
  private:
@@ -58,38 +61,65 @@ class SlidingRange {
     return {count, count};
   }
 
-  std::vector<CountRange>& older_;
+  CountRange* older_;
   const std::uint32_t* count_;
   CountRange newer_;
   std::uint32_t newer_from_ = 1;
 };
+
+/// Opens and closes one segment at a time; what happens at the same code makes one run. `bounds_of` gives a
+/// range's CountBounds. Writes at most one run for each opening and closing, and returns where it ended;
+/// `runs` has room for one more. Each step writes a run, and keeps it or not: nobody can foresee which.
+template <typename BoundsOf>
+std::size_t slide(const TubeWorkspace& room, SlidingRange counts, std::int64_t last_code,
+                  const BoundsOf& bounds_of, TubeRun* runs, std::int64_t& at) {
+  const std::int64_t *const opens = room.opens.data(), *const closes = room.closes.data();
+  const auto last_segment = static_cast<std::uint32_t>(room.closes.size() - 1);
+  std::uint32_t first = 0, next = 1;  // segments [first, next) are within delta
+  std::size_t size = 0;
+  CountBounds last{-1, -1};
+  at = 0;
+  while (at <= last_code) {
+    first += closes[first] <= at ? 1 : 0;
+    const bool comes = opens[next] <= at;
+    counts.push(std::min(next, last_segment), comes);
+    next += comes ? 1 : 0;
+    counts.drop_before(first, next);
+    const std::int64_t after = std::min(closes[first], opens[next]);
+    const CountBounds bounds = bounds_of(counts.from(first));
+    runs[size] = {at, bounds.lower, bounds.upper};
+    const bool is_new =
+        (after > at) & ((bounds.lower != last.lower) | (bounds.upper != last.upper));
+    size += is_new;
+    last = is_new ? bounds : last;
+    at = after;
+  }
+  return size;
+}
 
 }  // namespace
 
 void build_tube(const StepFunction& function, const FitRules& rules, TubeWorkspace& room,
                 std::vector<TubeRun>& tube) {
   find_reach(function, rules, room);
-  tube.clear();
-  const std::int64_t *const opens = room.opens.data(), *const closes = room.closes.data();
-  const std::int64_t last_code = rules.coding.depth_max();
-  SlidingRange counts(room.older, function);
-  std::uint32_t first = 0, next = 1;  // segments [first, next) are within delta
-  std::int64_t at = 0, low = -1, high = -1;
-  // Opens and closes one segment at a time; what happens at the same code makes one run.
-  while (at <= last_code) {
-    if (closes[first] <= at) ++first;
-    if (opens[next] <= at) counts.push(next++);
-    counts.drop_before(first, next);
-    const std::int64_t after = std::min(closes[first], opens[next]);
-    const CountRange range = counts.from(first);
-    const std::int64_t run_low = rules.lower_of(range.least), run_high = rules.upper_of(range.greatest);
-    if ((after > at) & ((run_low != low) | (run_high != high))) {
-      tube.push_back({at, run_low, run_high});
-      low = run_low;
-      high = run_high;
-    }
-    at = after;
+  room.older.resize(function.count.size() + 1);
+  tube.resize(2 * function.count.size() + 3);
+  const SlidingRange counts(room.older.data(), function.count.data());
+  std::int64_t at = 0;
+  std::size_t size = 0;
+  if (rules.lower.empty()) {
+    const auto bounds_of = [&rules](const CountRange& range) -> CountBounds {
+      return {rules.bounds_of(range.least).lower, rules.bounds_of(range.greatest).upper};
+    };
+    size = slide(room, counts, rules.coding.depth_max(), bounds_of, tube.data(), at);
+  } else {
+    const auto bounds_of = [lower = rules.lower.data(),
+                            upper = rules.upper.data()](const CountRange& range) -> CountBounds {
+      return {lower[range.least], upper[range.greatest]};
+    };
+    size = slide(room, counts, rules.coding.depth_max(), bounds_of, tube.data(), at);
   }
+  tube.resize(size);
   // What holds beyond the last code is V's last value, which the last run has room for.
   const std::uint32_t last_count = function.count.back();
   if (at != kNever) tube.back() = {tube.back().begin, rules.lower_of(last_count), rules.upper_of(last_count)};

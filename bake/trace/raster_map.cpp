@@ -11,7 +11,7 @@ namespace pdsm {
 namespace {
 
 /// Packets.
-constexpr std::int32_t kFetchedAhead = 2;
+constexpr std::int32_t kFetchedAhead = 4;
 
 std::span<const std::uint32_t> slots_of_chunk(std::span<const std::uint32_t> slots, std::size_t chunk) {
   if (slots.empty()) return slots;
