@@ -74,12 +74,18 @@ void place(std::vector<Geometry>& parts, const glm::dmat4& placement) {
   if (determinant(placement) < 0) turn_over(parts, [](const Geometry&) { return true; });
 }
 
+std::filesystem::path unpacked_name(const std::filesystem::path& path) {
+  return has_extension(path, ".gz") ? path.parent_path() / path.stem() : path;
+}
+
+bool is_gltf_name(const std::filesystem::path& name) {
+  return has_extension(name, ".gltf") || has_extension(name, ".glb");
+}
+
 ImportedFile import_file(FileSource& files, const std::filesystem::path& path) {
   std::string bytes = files.read_unpacked(path);
-  const std::filesystem::path name = has_extension(path, ".gz") ? path.parent_path() / path.stem() : path;
-  if (has_extension(name, ".gltf") || has_extension(name, ".glb")) {
-    return import_gltf(files, name, std::move(bytes));
-  }
+  const std::filesystem::path name = unpacked_name(path);
+  if (is_gltf_name(name)) return import_gltf(files, name, std::move(bytes));
   if (has_extension(name, ".ply")) return import_ply(name, bytes);
   return import_with_assimp(files, name, std::move(bytes));
 }

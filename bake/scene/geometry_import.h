@@ -13,6 +13,8 @@
 
 namespace pdsm {
 
+class GltfLights;
+
 /// What one geometry file holds.
 struct ImportedFile {
   std::vector<Geometry> parts;  ///< without triangles: none
@@ -22,12 +24,19 @@ struct ImportedFile {
 /// Reads a geometry file and what it refers to. Throws Error (input) "path: reason".
 [[nodiscard]] ImportedFile import_file(FileSource& files, const std::filesystem::path& path);
 
-/// The same of one kind of file, whose bytes are read already. `name` is the path without .gz.
+/// The same of one kind of file, whose bytes are read already. `name` is the path without .gz. Lights of
+/// glTF are left alone without `lights` to take them.
 [[nodiscard]] ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name,
-                                       std::string bytes);
+                                       std::string bytes, GltfLights* lights = nullptr);
 [[nodiscard]] ImportedFile import_ply(const std::filesystem::path& name, const std::string& bytes);
 [[nodiscard]] ImportedFile import_with_assimp(FileSource& files, const std::filesystem::path& name,
                                               std::string bytes);
+
+/// The path without .gz.
+[[nodiscard]] std::filesystem::path unpacked_name(const std::filesystem::path& path);
+
+/// Whether a file of this name, unpacked, is glTF or GLB.
+[[nodiscard]] bool is_gltf_name(const std::filesystem::path& name);
 
 /// Gathers the parts of a file: meshes under node transforms.
 class PartCollector {

@@ -5,15 +5,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "pdsm/format/error.h"
 #include "scene/format_fault.h"
 #include "scene/geometry_import.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_lights.h"
+#include "scene/json_document.h"
 #include "scene/one_line.h"
 #include "scene/tiny_gltf.h"
 
@@ -60,14 +64,29 @@ bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, 
   return true;
 }
 
+// tinygltf and what it is built on recurse into what extras hold.
+constexpr std::size_t kDeepest = 256;
+
+/// The JSON of a file: all of it, or the first chunk of a GLB.
+std::string_view json_of(const std::string& bytes, bool binary) {
+  constexpr std::size_t kLengthAt = 12, kTextAt = 20;
+  if (!binary) return bytes;
+  if (bytes.size() < kTextAt) return {};
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + kLengthAt, sizeof length);
+  return std::string_view(bytes).substr(kTextAt, length);
+}
+
 tinygltf::Model parse(FileSource& files, const std::filesystem::path& name, const std::string& bytes) {
   if (bytes.size() > std::numeric_limits<unsigned>::max()) throw FormatFault("is larger than 4 GiB");
   tinygltf::TinyGLTF loader;
+  loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
   loader.SetImageLoader(ignore_image, nullptr);
   loader.SetFsCallbacks(file_callbacks(files));
   const auto size = static_cast<unsigned>(bytes.size());
   const std::string folder = name.has_parent_path() ? name.parent_path().string() : ".";
   const bool binary = bytes.starts_with("glTF");
+  if (is_nested_deeper(json_of(bytes, binary), kDeepest)) throw FormatFault("is nested too deeply");
   tinygltf::Model model;
   std::string fault, warning;
   const bool good =
@@ -192,11 +211,16 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
   return roots;
 }
 
-/// Walks the node hierarchy and hands over each mesh's primitives; a mesh is read once.
+/// Walks the node hierarchy and hands over each mesh's primitives, and lights if they are wanted; a mesh is
+/// read once.
 class NodeWalk {
  public:
-  NodeWalk(const tinygltf::Model& model, PartCollector& parts)
-      : model_(model), parts_(parts), visited_(model.nodes.size(), false), meshes_(model.meshes.size()) {}
+  NodeWalk(const tinygltf::Model& model, PartCollector& parts, GltfLights* lights)
+      : model_(model),
+        parts_(parts),
+        lights_(lights),
+        visited_(model.nodes.size(), false),
+        meshes_(model.meshes.size()) {}
 
   void run() {
     for (const int root : root_nodes(model_)) open_.emplace_back(root, glm::dmat4(1.0));
@@ -218,6 +242,7 @@ class NodeWalk {
     const tinygltf::Node& node = model_.nodes[i];
     const glm::dmat4 node_to_file = parent_to_file * node_matrix(node);
     if (node.mesh >= 0) add_mesh(node, node_to_file);
+    if (lights_ != nullptr) lights_->take(model_, i, node_to_file);
     for (std::size_t child = node.children.size(); child-- > 0;)
       open_.emplace_back(node.children[child], node_to_file);
   }
@@ -236,6 +261,7 @@ class NodeWalk {
 
   const tinygltf::Model& model_;
   PartCollector& parts_;
+  GltfLights* lights_;
   std::vector<bool> visited_;
   std::vector<std::vector<std::shared_ptr<const Mesh>>> meshes_;
   std::vector<std::pair<int, glm::dmat4>> open_;
@@ -243,12 +269,13 @@ class NodeWalk {
 
 }  // namespace
 
-ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name, std::string bytes) {
+ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name, std::string bytes,
+                         GltfLights* lights) {
   PartCollector parts(name.filename().string());
   try {
     const tinygltf::Model model = parse(files, name, bytes);
     check_extensions(model);
-    NodeWalk(model, parts).run();
+    NodeWalk(model, parts, lights).run();
   } catch (const Error&) {
     throw;
   } catch (const std::exception& fault) {

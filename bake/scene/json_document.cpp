@@ -114,6 +114,20 @@ class DocumentBuilder : public nlohmann::json_sax<json> {
 
 }  // namespace
 
+bool is_nested_deeper(std::string_view text, std::size_t levels) {
+  std::size_t open = 0;
+  bool in_string = false;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const char c = text[n];
+    if (in_string && c == '\\') ++n;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if ((c == '[' || c == '{') && ++open > levels) return true;
+    if ((c == ']' || c == '}') && open > 0) --open;
+  }
+  return false;
+}
+
 std::string join_path(const std::string& path, const std::string& key) {
   const std::string safe = one_line(key);
   return path.empty() ? safe : path + "." + safe;

@@ -22,15 +22,6 @@ constexpr std::uint32_t kMaxSamples = 65536;
 // A wider window spends its texels on grazing light.
 constexpr double kMaxFov = 120;
 
-/// Full angle of a distant light, degrees.
-double read_angle(const JsonFields& fields) {
-  if (!fields.has("angle")) return DistantLight{}.angle;
-  const double angle = fields.number("angle");
-  if (!(angle >= 0 && angle <= kMostDistantAngle))
-    fields.refuse("angle", "must be a number from 0 to 90 (degrees, the full angle)");
-  return angle;
-}
-
 /// The light's shape by its type; throws unless every key belongs to a light of that type.
 LightShape read_shape(const JsonFields& fields) {
   const std::string type = fields.text("type");
@@ -47,7 +38,7 @@ LightShape read_shape(const JsonFields& fields) {
   if (type == "distant") {
     fields.allow_only(
         {"name", "type", "direction", "up", "angle", "window", "near", "far", "resolution", "samples"});
-    return DistantLight{read_angle(fields)};
+    return DistantLight{fields.has("angle") ? read_distant_angle(fields) : DistantLight{}.angle};
   }
   if (type == "sphere" || type == "mesh") {
     fields.refuse("type", "lights of type " + type + ": not supported yet");
@@ -63,14 +54,10 @@ void refuse_unsupported(const JsonFields& fields) {
   fields.refuse("faces", "must be 1, 5 or 6");
 }
 
-std::string read_name(const JsonFields& fields, std::size_t index) {
-  if (!fields.has("name")) return fmt::format("light{}", index + 1);
+std::string read_name(const JsonFields& fields, const std::string& default_name) {
+  if (!fields.has("name")) return default_name;
   std::string name = fields.text("name");
-  // Not isalnum(): what it accepts depends on the locale.
-  const auto is_allowed = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  if (name.empty() || !std::ranges::all_of(name, is_allowed)) {
+  if (name.empty() || !std::ranges::all_of(name, is_light_name_character)) {
     fields.refuse("name", "must be letters, digits, _ and - (A-Z, a-z, 0-9)");
   }
   return name;
@@ -135,20 +122,52 @@ void read_frame(const JsonFields& fields, Light& light) {
   }
 }
 
-}  // namespace
-
-Light read_light(const json& node, const std::string& file, std::size_t index) {
-  const JsonFields fields(node, file, join_path("lights", index));
+/// All but the light's frame.
+Light read_unplaced_light(const JsonFields& fields, const std::string& default_name) {
   Light light;
   light.shape = read_shape(fields);
   refuse_unsupported(fields);
-  light.name = read_name(fields, index);
-  read_frame(fields, light);
+  light.name = read_name(fields, default_name);
   light.window = read_view_window(fields);
   read_depths(fields, light);
   if (fields.has("resolution")) light.resolution = read_resolution(fields);
   if (fields.has("samples")) light.samples = fields.count("samples", kMaxSamples);
   return light;
+}
+
+}  // namespace
+
+Light read_light(const json& node, const std::string& file, std::size_t index) {
+  const JsonFields fields(node, file, join_path("lights", index));
+  Light light = read_unplaced_light(fields, fmt::format("light{}", index + 1));
+  read_frame(fields, light);
+  return light;
+}
+
+Light read_placed_light(const JsonFields& fields, const std::string& default_name, const LightPlace& place) {
+  for (const char* key : {"position", "direction", "up"}) {
+    if (fields.has(key)) fields.refuse(key, "is given by the node");
+  }
+  Light light = read_unplaced_light(fields, default_name);
+  set_place(place, light);
+  return light;
+}
+
+void set_place(const LightPlace& place, Light& light) {
+  if (!is_distant(light)) light.position = place.position;
+  light.direction = place.direction;
+  light.up = place.up;
+}
+
+double read_distant_angle(const JsonFields& fields) {
+  const double angle = fields.number("angle");
+  if (!(angle >= 0 && angle <= kMostDistantAngle))
+    fields.refuse("angle", "must be a number from 0 to 90 (degrees, the full angle)");
+  return angle;
+}
+
+bool is_light_name_character(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
 }  // namespace pdsm

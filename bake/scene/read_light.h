@@ -6,11 +6,31 @@
 #include <string>
 
 #include "pdsm/bake/scene.h"
+#include "scene/json_fields.h"
 
 namespace pdsm {
+
+/// Where a light is, and how it is turned.
+struct LightPlace {
+  glm::dvec3 position, direction, up;
+};
 
 /// One element of a scene file's "lights". A light without a name is called light1, light2, ... by its
 /// place. A distant one has no position yet. Throws Error (input) "file:lights[index].field: reason".
 [[nodiscard]] Light read_light(const nlohmann::json& node, const std::string& file, std::size_t index);
+
+/// The same of a light object whose place is given: it has no position, direction and up of its own. The
+/// place is not checked.
+[[nodiscard]] Light read_placed_light(const JsonFields& fields, const std::string& default_name,
+                                      const LightPlace& place);
+
+/// Puts a light there. A distant one takes the direction alone.
+void set_place(const LightPlace& place, Light& light);
+
+/// The field "angle": full angle of a distant light, degrees.
+[[nodiscard]] double read_distant_angle(const JsonFields& fields);
+
+/// Whether a light's name may have it: A-Z, a-z, 0-9, _ and -, whatever the locale.
+[[nodiscard]] bool is_light_name_character(char c);
 
 }  // namespace pdsm

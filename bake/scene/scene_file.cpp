@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "pdsm/format/error.h"
 #include "scene/file_source.h"
 #include "scene/geometry_import.h"
+#include "scene/gltf_lights.h"
 #include "scene/json_document.h"
 #include "scene/json_fields.h"
 #include "scene/light_check.h"
@@ -26,7 +28,7 @@ using nlohmann::json;
 // A scene file names geometry, it does not hold it; a larger one is something else.
 constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t{64} << 20;
 
-/// Reads one scene file; keeps what several of its entries share.
+/// Reads one scene, of a scene file or a glTF file; keeps what several of its entries share.
 class SceneReader {
  public:
   explicit SceneReader(fs::path path) : path_(std::move(path)), file_(path_.string()) {}
@@ -34,9 +36,12 @@ class SceneReader {
   Scene read();
 
  private:
+  void read_json();
+  void read_gltf();
   void read_geometry(const json& node, std::size_t index);
   const std::vector<Geometry>& import(const JsonFields& fields);
   void read_lights(const json& nodes);
+  void warn_of(const LeftOut& left_out, const std::string& file);
 
   fs::path path_;
   std::string file_;
@@ -75,12 +80,16 @@ const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
   if (known != imported_.end()) return known->second;
   try {
     ImportedFile file = import_file(files_, path);
-    const std::string left_out = describe(file.left_out);
-    if (!left_out.empty()) scene_.warnings.push_back(name + ": " + left_out);
+    warn_of(file.left_out, name);
     return imported_.emplace(path, std::move(file.parts)).first->second;
   } catch (const Error& fault) {
     throw Error(fault.failure(), file_ + ":" + fields.path_of("file"), fault.what());
   }
+}
+
+void SceneReader::warn_of(const LeftOut& left_out, const std::string& file) {
+  const std::string what = describe(left_out);
+  if (!what.empty()) scene_.warnings.push_back(file + ": " + what);
 }
 
 void SceneReader::read_geometry(const json& node, std::size_t index) {
@@ -116,22 +125,34 @@ void SceneReader::read_lights(const json& nodes) {
   }
 }
 
-Scene SceneReader::read() {
-  if (has_extension(path_, ".gltf") || has_extension(path_, ".glb")) {
-    throw Error(Failure::input, file_, "a glTF file as the scene: not supported yet");
-  }
+void SceneReader::read_json() {
   const json root = parse_json(files_.read(path_, kMaxSceneFileBytes), file_);
   const JsonFields fields(root, file_, "");
   fields.allow_only({"geometry", "volumes", "lights"});
-  scene_.source = file_;
   if (fields.has("volumes") && !fields.array("volumes").empty())
     fields.refuse("volumes", "not supported yet");
   // Lights first: their faults are told before large files are read.
   if (fields.has("lights")) read_lights(fields.array("lights"));
-  if (fields.has("geometry")) {
-    const json& nodes = fields.array("geometry");
-    for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
-  }
+  if (!fields.has("geometry")) return;
+  const json& nodes = fields.array("geometry");
+  for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
+}
+
+void SceneReader::read_gltf() {
+  GltfLights lights(file_);
+  ImportedFile file = import_gltf(files_, unpacked_name(path_), files_.read_unpacked(path_), &lights);
+  warn_of(file.left_out, path_.filename().string());
+  scene_.geometry = std::move(file.parts);
+  scene_.lights = std::move(lights.lights);
+  std::ranges::move(lights.warnings, std::back_inserter(scene_.warnings));
+}
+
+Scene SceneReader::read() {
+  scene_.source = file_;
+  if (is_gltf_name(unpacked_name(path_)))
+    read_gltf();
+  else
+    read_json();
   for (Light& light : scene_.lights) {
     place_distant_light(scene_, light);
     warn_if_inside(scene_, light);

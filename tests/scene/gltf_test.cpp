@@ -277,5 +277,24 @@ TEST_F(GltfTest, BrokenFilesAreRefused) {
   EXPECT_EQ(folder_.import_fault_of("short.glb").substr(0, 11), "short.glb: ");
 }
 
+TEST_F(GltfTest, DeepNestingIsRefused) {
+  const auto nested = [](std::size_t depth) {
+    return "{\"asset\": {\"version\": \"2.0\", \"extras\": \"[[[\\\"[\"}, \"extras\": " +
+           std::string(depth, '[') + std::string(depth, ']') + "}";
+  };
+  folder_.write("a.gltf", nested(255));
+  EXPECT_EQ(folder_.import_fault_of("a.gltf"), "");
+  folder_.write("a.gltf", nested(256));
+  EXPECT_EQ(folder_.import_fault_of("a.gltf"), "a.gltf: is nested too deeply");
+  // Far deeper than any stack.
+  const std::string text = nested(4'000'000);
+  const auto word = [](std::size_t value) {
+    const auto narrow = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&narrow), sizeof narrow);
+  };
+  folder_.write("a.glb", "glTF" + word(2) + word(20 + text.size()) + word(text.size()) + "JSON" + text);
+  EXPECT_EQ(folder_.import_fault_of("a.glb"), "a.glb: is nested too deeply");
+}
+
 }  // namespace
 }  // namespace pdsm::test

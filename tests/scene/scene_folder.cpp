@@ -56,6 +56,10 @@ std::string SceneFolder::fault_of(const std::string& scene) const {
   return fault([&] { (void)read(scene); });
 }
 
+std::string SceneFolder::scene_fault_of(const std::string& name) const {
+  return fault([&] { (void)read_scene(path_ / name); });
+}
+
 std::string SceneFolder::import_fault_of(const std::string& name) const {
   return fault([&] { (void)import_geometry(path_ / name); });
 }

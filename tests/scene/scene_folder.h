@@ -28,6 +28,9 @@ class SceneFolder {
   /// is not. Fails the test unless that is an Error (input) of one line.
   [[nodiscard]] std::string fault_of(const std::string& scene) const;
 
+  /// The same of reading one file as a scene.
+  [[nodiscard]] std::string scene_fault_of(const std::string& name) const;
+
   /// The same of reading one file as geometry.
   [[nodiscard]] std::string import_fault_of(const std::string& name) const;
 
