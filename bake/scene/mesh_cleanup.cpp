@@ -17,6 +17,13 @@ bool is_usable(const glm::vec3& p) {
          std::abs(p.z) <= kMaxCoordinate;
 }
 
+bool is_usable(const Mesh& mesh, std::uint32_t corner) {
+  if (!is_usable(mesh.positions[corner])) return false;
+  if (!mesh.mask) return true;
+  const glm::vec2& place = mesh.mask_places[corner];
+  return std::isfinite(place.x) && std::isfinite(place.y);
+}
+
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return glm::cross(b - a, c - a) != glm::dvec3(0);
 }
@@ -25,13 +32,14 @@ bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
 Mesh keep_usable(const Mesh& raw, LeftOut& left_out) {
   Mesh mesh;
   mesh.positions = raw.positions;
+  mesh.mask = raw.mask;
+  mesh.mask_places = raw.mask_places;
   mesh.triangles.reserve(raw.triangles.size());
   const std::size_t count = mesh.positions.size();
   for (const glm::uvec3& t : raw.triangles) {
     if (t.x >= count || t.y >= count || t.z >= count) {
       ++left_out.bad_index;
-    } else if (!is_usable(mesh.positions[t.x]) || !is_usable(mesh.positions[t.y]) ||
-               !is_usable(mesh.positions[t.z])) {
+    } else if (!is_usable(mesh, t.x) || !is_usable(mesh, t.y) || !is_usable(mesh, t.z)) {
       ++left_out.not_finite;
     } else {
       mesh.triangles.push_back(t);

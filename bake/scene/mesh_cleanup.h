@@ -24,8 +24,8 @@ struct LeftOut {
 /// and sets `closed`. Triangles keep their order and winding.
 [[nodiscard]] Mesh clean_mesh(const Mesh& raw, LeftOut& left_out);
 
-/// `mesh` with equal positions (0 equals -0) joined and unused ones dropped. All indices must be in range
-/// and all used positions finite.
+/// `mesh` with equal positions (0 equals -0) joined, those of a mesh with a mask where their places in it are
+/// equal too, and unused ones dropped. All indices must be in range and all used positions and places finite.
 [[nodiscard]] Mesh weld(const Mesh& mesh);
 
 }  // namespace pdsm

@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-std::uint64_t hash_position(const glm::vec3& p) {
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis) {
+template <typename Vector>
+std::uint64_t hash_vector(const Vector& p, std::uint64_t hash) {
+  for (int axis = 0; axis < Vector::length(); ++axis) {
     // Adding 0 makes -0 and 0, which are equal, hash alike.
     hash = (hash ^ std::bit_cast<std::uint32_t>(p[axis] + 0.0F)) * 0x9E3779B97F4A7C15U;
     hash ^= hash >> 32;
@@ -23,30 +23,65 @@ std::uint64_t hash_position(const glm::vec3& p) {
   return hash;
 }
 
-/// Numbers distinct positions 0, 1, ... in order of arrival; a hash table with linear probing.
-class PositionIndex {
- public:
-  explicit PositionIndex(std::size_t capacity)
-      : slots_(std::bit_ceil(capacity * 2 + 1), kNone), mask_(slots_.size() - 1) {}
+std::uint64_t hash_of(const glm::vec3& position) {
+  return hash_vector(position, 0);
+}
 
-  std::uint32_t index_of(const glm::vec3& p) {
-    for (std::uint64_t slot = hash_position(p) & mask_;; slot = (slot + 1) & mask_) {
+/// A position of a mesh with a mask: where two parts of the mask meet, it is there twice.
+struct MaskedPosition {
+  glm::vec3 position{0};
+  glm::vec2 place{0};
+
+  bool operator==(const MaskedPosition& other) const {
+    return position == other.position && place == other.place;
+  }
+};
+
+std::uint64_t hash_of(const MaskedPosition& p) {
+  return hash_vector(p.place, hash_vector(p.position, 0));
+}
+
+/// Numbers distinct keys 0, 1, ... in order of arrival; a hash table with linear probing.
+template <typename Key>
+class KeyIndex {
+ public:
+  explicit KeyIndex(std::size_t capacity)
+      : slots_(std::bit_ceil(capacity * 2 + 1), kNone), slot_bits_(slots_.size() - 1) {}
+
+  std::uint32_t index_of(const Key& key) {
+    for (std::uint64_t slot = hash_of(key) & slot_bits_;; slot = (slot + 1) & slot_bits_) {
       if (slots_[slot] == kNone) {
-        slots_[slot] = static_cast<std::uint32_t>(positions_.size());
-        positions_.push_back(p);
+        slots_[slot] = static_cast<std::uint32_t>(keys_.size());
+        keys_.push_back(key);
         return slots_[slot];
       }
-      if (positions_[slots_[slot]] == p) return slots_[slot];
+      if (keys_[slots_[slot]] == key) return slots_[slot];
     }
   }
 
-  std::vector<glm::vec3> take_positions() { return std::move(positions_); }
+  std::vector<Key> take_keys() { return std::move(keys_); }
 
  private:
   std::vector<std::uint32_t> slots_;
-  std::uint64_t mask_;
-  std::vector<glm::vec3> positions_;
+  std::uint64_t slot_bits_;
+  std::vector<Key> keys_;
 };
+
+/// Renumbers the triangles' corners, and tells the distinct keys that they use, in order. `key_of(n)`: of
+/// corner n.
+template <typename Key, typename KeyOf>
+std::vector<Key> join_corners(std::size_t corners, KeyOf&& key_of, std::vector<glm::uvec3>& triangles) {
+  KeyIndex<Key> index(corners);
+  std::vector<std::uint32_t> joined(corners, kNone);
+  for (glm::uvec3& t : triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      std::uint32_t& to = joined[t[corner]];
+      if (to == kNone) to = index.index_of(key_of(t[corner]));
+      t[corner] = to;
+    }
+  }
+  return index.take_keys();
+}
 
 bool all_in_range(const Mesh& mesh) {
   const std::size_t count = mesh.positions.size();
@@ -100,25 +135,26 @@ bool is_paired(std::vector<std::uint64_t>::iterator begin, std::vector<std::uint
 }  // namespace
 
 Mesh weld(const Mesh& mesh) {
-  PositionIndex index(mesh.positions.size());
-  std::vector<std::uint32_t> joined(mesh.positions.size(), kNone);
   Mesh welded;
   welded.closed = mesh.closed;
-  welded.triangles.reserve(mesh.triangles.size());
-  for (glm::uvec3 t : mesh.triangles) {
-    for (int corner = 0; corner < 3; ++corner) {
-      std::uint32_t& to = joined[t[corner]];
-      if (to == kNone) to = index.index_of(mesh.positions[t[corner]]);
-      t[corner] = to;
-    }
-    welded.triangles.push_back(t);
+  welded.triangles = mesh.triangles;
+  const std::size_t corners = mesh.positions.size();
+  if (!mesh.mask) {
+    welded.positions = join_corners<glm::vec3>(
+        corners, [&](std::uint32_t n) { return mesh.positions[n]; }, welded.triangles);
+    return welded;
   }
-  welded.positions = index.take_positions();
+  welded.mask = mesh.mask;
+  const auto masked = [&](std::uint32_t n) { return MaskedPosition{mesh.positions[n], mesh.mask_places[n]}; };
+  for (const MaskedPosition& p : join_corners<MaskedPosition>(corners, masked, welded.triangles)) {
+    welded.positions.push_back(p.position);
+    welded.mask_places.push_back(p.place);
+  }
   return welded;
 }
 
 bool is_closed(const Mesh& mesh) {
-  if (mesh.triangles.empty() || !all_in_range(mesh)) return false;
+  if (mesh.mask || mesh.triangles.empty() || !all_in_range(mesh)) return false;
   EdgeTable table = make_edge_table(weld(mesh));
   for (std::size_t i = 0; i + 1 < table.first.size(); ++i) {
     const auto begin = table.edges.begin();

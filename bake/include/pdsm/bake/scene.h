@@ -18,6 +18,20 @@
 /// any thread may read it.
 namespace pdsm {
 
+/// How a mask goes on beyond its edges.
+enum class MaskWrap : std::uint8_t { repeat, mirror, clamp };
+
+/// What is cut out of a surface, as foliage, fences and grates are cut out of textures. The surface is there
+/// where the mask's alpha is at least `cutoff`, and a hole elsewhere. Alpha is linear between texel centres,
+/// which lie at ((i + 1/2) / width, (j + 1/2) / height).
+struct CutoutMask {
+  std::uint32_t width = 0, height = 0;  ///< texels, 1 .. kMostMaskTexels
+  std::vector<std::uint8_t> alpha;      ///< row by row, the one at v = 0 first; 255 is 1
+  std::array<MaskWrap, 2> wrap{};       ///< along u and v
+  float cutoff = 0.5F;                  ///< 0 or more; 0: no holes, above 1: nothing but
+};
+inline constexpr std::uint32_t kMostMaskTexels = 16384;
+
 /// Indexed triangles in their own local space.
 struct Mesh {
   std::vector<glm::vec3> positions;
@@ -27,9 +41,16 @@ struct Mesh {
   /// as placed in the world, counter-clockwise seen from outside: a mirroring placement wants it turned over
   /// in local space, as importing a file does.
   bool closed = false;
+  /// What is cut out; null: nothing. A mesh with a mask is never closed. Meshes may share masks.
+  std::shared_ptr<const CutoutMask> mask;
+  std::vector<glm::vec2> mask_places;  ///< (u, v) in the mask, one a position; none without a mask
 };
 
-/// Whether the triangles form closed, consistently oriented surfaces. O(triangles).
+/// Throws Error (input) "name:mask: reason" for a mask that is not as described above: sizes that don't fit,
+/// a cutoff that is negative or NaN, a closed mesh. Baking calls it. O(1).
+void check_mask(const Mesh& mesh, const std::string& name);
+
+/// Whether the triangles form closed, consistently oriented surfaces; never with a mask. O(triangles).
 [[nodiscard]] bool is_closed(const Mesh& mesh);
 
 /// One placed mesh.
