@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "pdsm/format/error.h"
+#include "scene/assimp_cutouts.h"
 #include "scene/geometry_import.h"
 #include "scene/one_line.h"
 
@@ -126,7 +127,7 @@ std::optional<glm::vec3> base_color(const aiScene& scene, const aiMesh& mesh) {
 }
 
 /// Adds the meshes of all nodes, depth first.
-void collect_nodes(const aiScene& scene, PartCollector& parts) {
+void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector& parts) {
   std::vector<std::shared_ptr<const Mesh>> meshes(scene.mNumMeshes);
   std::vector<std::pair<const aiNode*, glm::dmat4>> open;
   if (scene.mRootNode != nullptr) open.emplace_back(scene.mRootNode, glm::dmat4(1.0));
@@ -137,7 +138,11 @@ void collect_nodes(const aiScene& scene, PartCollector& parts) {
     for (const unsigned index : std::span(node->mMeshes, node->mNumMeshes)) {
       if (index >= scene.mNumMeshes) continue;
       const aiMesh& mesh = *scene.mMeshes[index];
-      if (!meshes[index]) meshes[index] = parts.clean(to_mesh(mesh));
+      if (!meshes[index]) {
+        Mesh raw = to_mesh(mesh);
+        cutouts.cut_out(mesh, raw);
+        meshes[index] = parts.clean(raw);
+      }
       parts.add(node->mName.C_Str(), meshes[index], node_to_file, base_color(scene, mesh));
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], node_to_file);
@@ -170,7 +175,8 @@ ImportedFile import_with_assimp(FileSource& files, const std::filesystem::path& 
   PartCollector parts(name.filename().string());
   LeftOut bad_polygons;
   try {
-    collect_nodes(read_and_triangulate(importer, name.string(), bad_polygons.bad_index), parts);
+    const aiScene& scene = read_and_triangulate(importer, name.string(), bad_polygons.bad_index);
+    collect_nodes(scene, AssimpCutouts(files, name, scene), parts);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& fault) {

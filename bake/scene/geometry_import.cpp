@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/geometry_import.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -42,6 +43,10 @@ void PartCollector::add_left_out(const LeftOut& left_out) {
   file_.left_out.bad_index += left_out.bad_index;
   file_.left_out.not_finite += left_out.not_finite;
   file_.left_out.no_area += left_out.no_area;
+}
+
+void PartCollector::warn(const std::string& text) {
+  if (std::ranges::find(file_.warnings, text) == file_.warnings.end()) file_.warnings.push_back(text);
 }
 
 void PartCollector::add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,

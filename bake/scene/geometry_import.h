@@ -19,6 +19,7 @@ class GltfLights;
 struct ImportedFile {
   std::vector<Geometry> parts;  ///< without triangles: none
   LeftOut left_out;
+  std::vector<std::string> warnings;  ///< besides what was left out; without the file's name
 };
 
 /// Reads a geometry file and what it refers to. Throws Error (input) "path: reason".
@@ -48,6 +49,9 @@ class PartCollector {
 
   /// Counts triangles that the file's reader has left out itself.
   void add_left_out(const LeftOut& left_out);
+
+  /// Adds a warning, once.
+  void warn(const std::string& text);
 
   /// Adds a part. One without triangles is passed over; one that its node flattens counts as left out.
   void add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,

@@ -9,17 +9,10 @@
 #include <type_traits>
 
 #include "scene/format_fault.h"
+#include "scene/gltf_element.h"
 
 namespace pdsm {
 namespace {
-
-template <typename T>
-const T& element(const std::vector<T>& all, int index, const char* kind) {
-  if (index < 0 || static_cast<std::size_t>(index) >= all.size()) {
-    throw FormatFault(fmt::format("{}[{}] does not exist", kind, index));
-  }
-  return all[static_cast<std::size_t>(index)];
-}
 
 /// Where an accessor's elements lie; checked against the buffer.
 struct ElementRange {
@@ -79,25 +72,35 @@ float to_float(T value, bool normalized) {
   return std::max(plain / static_cast<float>(std::numeric_limits<T>::max()), -1.0F);
 }
 
-}  // namespace
-
-std::vector<glm::vec3> read_positions(const tinygltf::Model& model, int accessor_index) {
+template <typename Vector>
+std::vector<Vector> read_vectors(const tinygltf::Model& model, int accessor_index, int type,
+                                 const char* type_name) {
+  constexpr int kAxes = Vector::length();
   const tinygltf::Accessor& accessor = element(model.accessors, accessor_index, "accessors");
-  if (accessor.type != TINYGLTF_TYPE_VEC3)
-    throw FormatFault(fmt::format("accessors[{}] is not VEC3", accessor_index));
-  std::vector<glm::vec3> positions;
+  if (accessor.type != type)
+    throw FormatFault(fmt::format("accessors[{}] is not {}", accessor_index, type_name));
+  std::vector<Vector> vectors;
   with_component_type(accessor.componentType, [&](auto zero) {
     using T = decltype(zero);
-    const ElementRange range = element_range(model, accessor_index, 3 * sizeof(T));
-    positions.resize(range.count);
+    const ElementRange range = element_range(model, accessor_index, kAxes * sizeof(T));
+    vectors.resize(range.count);
     for (std::size_t i = 0; i < range.count; ++i) {
-      T xyz[3];
-      std::memcpy(xyz, range.first + i * range.stride, sizeof(xyz));
-      positions[i] = {to_float(xyz[0], accessor.normalized), to_float(xyz[1], accessor.normalized),
-                      to_float(xyz[2], accessor.normalized)};
+      T values[kAxes];
+      std::memcpy(values, range.first + i * range.stride, sizeof(values));
+      for (int axis = 0; axis < kAxes; ++axis) vectors[i][axis] = to_float(values[axis], accessor.normalized);
     }
   });
-  return positions;
+  return vectors;
+}
+
+}  // namespace
+
+std::vector<glm::vec3> read_positions(const tinygltf::Model& model, int accessor) {
+  return read_vectors<glm::vec3>(model, accessor, TINYGLTF_TYPE_VEC3, "VEC3");
+}
+
+std::vector<glm::vec2> read_texture_places(const tinygltf::Model& model, int accessor) {
+  return read_vectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2, "VEC2");
 }
 
 std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor_index) {

@@ -13,6 +13,9 @@ namespace pdsm {
 /// KHR_mesh_quantization). Throws FormatFault when it does not lie within its buffer.
 [[nodiscard]] std::vector<glm::vec3> read_positions(const tinygltf::Model& model, int accessor);
 
+/// The places of a VEC2 accessor, of the same types. Same faults.
+[[nodiscard]] std::vector<glm::vec2> read_texture_places(const tinygltf::Model& model, int accessor);
+
 /// The indices of a SCALAR accessor of unsigned integers. Same faults.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor);
 

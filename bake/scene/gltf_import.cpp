@@ -16,6 +16,7 @@
 #include "scene/format_fault.h"
 #include "scene/geometry_import.h"
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_cutouts.h"
 #include "scene/gltf_lights.h"
 #include "scene/json_document.h"
 #include "scene/one_line.h"
@@ -24,7 +25,8 @@
 namespace pdsm {
 namespace {
 
-// What a file may demand of its reader and this one fulfils or may ignore, as only shapes are wanted.
+// What a file may demand of its reader and this one fulfils or may ignore, as only shapes are wanted, and
+// what is cut out of them.
 constexpr std::array kIgnorableExtensions = {"KHR_mesh_quantization", "KHR_texture_transform",
                                              "KHR_lights_punctual", "EXT_lights_area"};
 
@@ -33,7 +35,8 @@ bool is_image_name(const std::filesystem::path& path) {
                              [&](const char* extension) { return has_extension(path, extension); });
 }
 
-/// Lets tinygltf read buffers through FileSource, and finds no image files: pictures are not wanted.
+/// Lets tinygltf read buffers through FileSource, and finds no image files: few of them are wanted, and those
+/// are read later (gltf_cutouts.h).
 tinygltf::FsCallbacks file_callbacks(FileSource& files) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.FileExists = [](const std::string& name, void*) {
@@ -59,11 +62,6 @@ tinygltf::FsCallbacks file_callbacks(FileSource& files) {
   return callbacks;
 }
 
-bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
-                  int, void*) {
-  return true;
-}
-
 // tinygltf and what it is built on recurse into what extras hold.
 constexpr std::size_t kDeepest = 256;
 
@@ -81,7 +79,7 @@ tinygltf::Model parse(FileSource& files, const std::filesystem::path& name, cons
   if (bytes.size() > std::numeric_limits<unsigned>::max()) throw FormatFault("is larger than 4 GiB");
   tinygltf::TinyGLTF loader;
   loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
-  loader.SetImageLoader(ignore_image, nullptr);
+  loader.SetImageLoader(keep_image_bytes, nullptr);
   loader.SetFsCallbacks(file_callbacks(files));
   const auto size = static_cast<unsigned>(bytes.size());
   const std::string folder = name.has_parent_path() ? name.parent_path().string() : ".";
@@ -215,8 +213,9 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
 /// read once.
 class NodeWalk {
  public:
-  NodeWalk(const tinygltf::Model& model, PartCollector& parts, GltfLights* lights)
+  NodeWalk(const tinygltf::Model& model, GltfCutouts& cutouts, PartCollector& parts, GltfLights* lights)
       : model_(model),
+        cutouts_(cutouts),
         parts_(parts),
         lights_(lights),
         visited_(model.nodes.size(), false),
@@ -247,19 +246,26 @@ class NodeWalk {
       open_.emplace_back(node.children[child], node_to_file);
   }
 
+  std::shared_ptr<const Mesh> read(const tinygltf::Primitive& primitive) {
+    Mesh mesh = to_mesh(model_, primitive);
+    cutouts_.cut_out(primitive, mesh);
+    return parts_.clean(mesh);
+  }
+
   void add_mesh(const tinygltf::Node& node, const glm::dmat4& node_to_file) {
     const auto index = static_cast<std::size_t>(node.mesh);
     if (index >= model_.meshes.size()) throw FormatFault(fmt::format("meshes[{}] does not exist", node.mesh));
     const tinygltf::Mesh& source = model_.meshes[index];
     auto& primitives = meshes_[index];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
-      if (primitives.size() == p) primitives.push_back(parts_.clean(to_mesh(model_, source.primitives[p])));
+      if (primitives.size() == p) primitives.push_back(read(source.primitives[p]));
       parts_.add(node.name.empty() ? source.name : node.name, primitives[p], node_to_file,
                  base_color(model_, source.primitives[p].material));
     }
   }
 
   const tinygltf::Model& model_;
+  GltfCutouts& cutouts_;
   PartCollector& parts_;
   GltfLights* lights_;
   std::vector<bool> visited_;
@@ -275,7 +281,8 @@ ImportedFile import_gltf(FileSource& files, const std::filesystem::path& name, s
   try {
     const tinygltf::Model model = parse(files, name, bytes);
     check_extensions(model);
-    NodeWalk(model, parts, lights).run();
+    GltfCutouts cutouts(files, name, model, parts);
+    NodeWalk(model, cutouts, parts, lights).run();
   } catch (const Error&) {
     throw;
   } catch (const std::exception& fault) {

@@ -41,7 +41,7 @@ class SceneReader {
   void read_geometry(const json& node, std::size_t index);
   const std::vector<Geometry>& import(const JsonFields& fields);
   void read_lights(const json& nodes);
-  void warn_of(const LeftOut& left_out, const std::string& file);
+  void warn_of(const ImportedFile& file, const std::string& name);
 
   fs::path path_;
   std::string file_;
@@ -80,16 +80,17 @@ const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
   if (known != imported_.end()) return known->second;
   try {
     ImportedFile file = import_file(files_, path);
-    warn_of(file.left_out, name);
+    warn_of(file, name);
     return imported_.emplace(path, std::move(file.parts)).first->second;
   } catch (const Error& fault) {
     throw Error(fault.failure(), file_ + ":" + fields.path_of("file"), fault.what());
   }
 }
 
-void SceneReader::warn_of(const LeftOut& left_out, const std::string& file) {
-  const std::string what = describe(left_out);
-  if (!what.empty()) scene_.warnings.push_back(file + ": " + what);
+void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
+  const std::string left_out = describe(file.left_out);
+  if (!left_out.empty()) scene_.warnings.push_back(name + ": " + left_out);
+  for (const std::string& warning : file.warnings) scene_.warnings.push_back(name + ":" + warning);
 }
 
 void SceneReader::read_geometry(const json& node, std::size_t index) {
@@ -141,7 +142,7 @@ void SceneReader::read_json() {
 void SceneReader::read_gltf() {
   GltfLights lights(file_);
   ImportedFile file = import_gltf(files_, unpacked_name(path_), files_.read_unpacked(path_), &lights);
-  warn_of(file.left_out, path_.filename().string());
+  warn_of(file, path_.filename().string());
   scene_.geometry = std::move(file.parts);
   scene_.lights = std::move(lights.lights);
   std::ranges::move(lights.warnings, std::back_inserter(scene_.warnings));

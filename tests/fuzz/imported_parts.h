@@ -13,6 +13,7 @@ inline void demand_sound(const ImportedFile& file) {
     const std::size_t count = part.mesh->positions.size();
     for (const glm::uvec3& t : part.mesh->triangles)
       demand(t.x < count && t.y < count && t.z < count, "corners that the mesh has");
+    check_mask(*part.mesh, part.name);
   }
 }
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf_cutouts.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "pdsm/format/error.h"
+#include "scene/alpha_image.h"
+#include "scene/format_fault.h"
+#include "scene/gltf_element.h"
+#include "scene/gltf_texture_places.h"
+#include "scene/one_line.h"
+
+namespace pdsm {
+namespace {
+
+MaskWrap wrap_of(int mode) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_REPEAT:
+      return MaskWrap::repeat;
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+      return MaskWrap::clamp;
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+      return MaskWrap::mirror;
+    default:
+      throw FormatFault(fmt::format("wrap mode {} is unknown", mode));
+  }
+}
+
+/// A name in a URI, where "%20" stands for a space.
+std::string percent_decoded(const std::string& uri) {
+  std::string name;
+  for (std::size_t n = 0; n < uri.size(); ++n) {
+    unsigned value = 0;
+    const char* const digits = uri.data() + n + 1;
+    const bool coded = uri[n] == '%' && n + 2 < uri.size() &&
+                       std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
+    name += coded ? static_cast<char>(value) : uri[n];
+    if (coded) n += 2;
+  }
+  return name;
+}
+
+std::string image_name(const tinygltf::Image& image, int index) {
+  if (!image.uri.empty()) return image.uri;
+  return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
+}
+
+}  // namespace
+
+struct GltfCutouts::Cutout {
+  std::shared_ptr<const CutoutMask> mask;   // null: nothing is cut out
+  std::optional<GltfTexturePlaces> places;  // none: the mask is the same everywhere
+};
+
+void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
+  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= model_.materials.size())
+    return;
+  const auto material = static_cast<std::size_t>(primitive.material);
+  if (model_.materials[material].alphaMode != "MASK" || mesh.positions.empty()) return;
+  try {
+    const Cutout& cutout = cutout_of(material);
+    if (!cutout.mask) return;
+    mesh.mask = cutout.mask;
+    if (cutout.places)
+      mesh.mask_places = cutout.places->read(model_, primitive, mesh.positions.size());
+    else
+      mesh.mask_places.assign(mesh.positions.size(), glm::vec2(0));
+  } catch (const std::exception& fault) {
+    throw Error(Failure::input, name_.string() + ":" + name_of(material), one_line(fault.what()));
+  }
+}
+
+const GltfCutouts::Cutout& GltfCutouts::cutout_of(std::size_t material) {
+  auto& cutout = cutouts_[material];
+  if (!cutout)
+    cutout = std::make_shared<const Cutout>(read_cutout(model_.materials[material], name_of(material)));
+  return *cutout;
+}
+
+GltfCutouts::Cutout GltfCutouts::read_cutout(const tinygltf::Material& material, const std::string& where) {
+  const auto& base = material.pbrMetallicRoughness;
+  const double opacity = base.baseColorFactor.size() == 4 ? base.baseColorFactor[3] : 1;
+  if (!(opacity >= 0 && opacity <= 1)) throw FormatFault("baseColorFactor must be from 0 to 1");
+  if (!(material.alphaCutoff >= 0)) throw FormatFault("alphaCutoff must be 0 or more");
+  // Alpha times opacity is at least the cutoff where alpha is at least this.
+  const double cutoff = opacity > 0                ? material.alphaCutoff / opacity
+                        : material.alphaCutoff > 0 ? HUGE_VAL
+                                                   : 0;
+  if (base.baseColorTexture.index < 0) return {make_mask({1, 1, {255}, true}, {}, cutoff), {}};
+  const tinygltf::Texture& texture = element(model_.textures, base.baseColorTexture.index, "textures");
+  if (texture.source < 0) throw FormatFault("its texture has no image that can be read");
+  const tinygltf::Image& image = element(model_.images, texture.source, "images");
+  const std::string name = image_name(image, texture.source);
+  const GltfTexturePlaces places(base.baseColorTexture);
+  std::array<MaskWrap, 2> wrap{};
+  if (texture.sampler >= 0) {
+    const tinygltf::Sampler& sampler = element(model_.samplers, texture.sampler, "samplers");
+    wrap = {wrap_of(sampler.wrapS), wrap_of(sampler.wrapT)};
+  }
+  try {
+    AlphaImage alpha = read_alpha(image_bytes(image), WithoutAlpha::opaque);
+    if (!alpha.has_alpha)
+      parts_.warn(fmt::format("{}: image {} has no alpha channel: nothing is cut out", where, name));
+    return {make_mask(std::move(alpha), wrap, cutoff), places};
+  } catch (const FormatFault& fault) {
+    throw FormatFault(fmt::format("image {}: {}", name, fault.what()));
+  }
+}
+
+std::string GltfCutouts::image_bytes(const tinygltf::Image& image) {
+  if (image.bufferView >= 0) {
+    const tinygltf::BufferView& view = element(model_.bufferViews, image.bufferView, "bufferViews");
+    const std::vector<unsigned char>& data = element(model_.buffers, view.buffer, "buffers").data;
+    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
+      throw FormatFault("reaches past its buffer");
+    return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
+  }
+  if (!image.image.empty()) return {reinterpret_cast<const char*>(image.image.data()), image.image.size()};
+  if (image.uri.empty()) throw FormatFault("is empty");
+  return files_.read(name_.parent_path() / percent_decoded(image.uri));
+}
+
+std::string GltfCutouts::name_of(std::size_t material) const {
+  const std::string& name = model_.materials[material].name;
+  return name.empty() ? fmt::format("materials[{}]", material) : name;
+}
+
+bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                      const unsigned char* bytes, int size, void*) {
+  // What lies in a buffer stays there.
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+}  // namespace pdsm

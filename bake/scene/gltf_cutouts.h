@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scene/geometry_import.h"
+#include "scene/tiny_gltf.h"
+
+namespace pdsm {
+
+/// What the materials of a glTF file cut out of its meshes (alphaMode MASK).
+class GltfCutouts {
+ public:
+  /// Borrows all but the name. Warnings go to `parts`.
+  GltfCutouts(FileSource& files, std::filesystem::path name, const tinygltf::Model& model,
+              PartCollector& parts)
+      : files_(files), name_(std::move(name)), model_(model), parts_(parts) {}
+
+  /// Gives the mesh of a primitive the mask of its material and its places there, if anything is cut out.
+  /// Throws Error (input) "file:material: reason".
+  void cut_out(const tinygltf::Primitive& primitive, Mesh& mesh);
+
+ private:
+  struct Cutout;
+
+  [[nodiscard]] const Cutout& cutout_of(std::size_t material);
+  [[nodiscard]] Cutout read_cutout(const tinygltf::Material& material, const std::string& where);
+  [[nodiscard]] std::string image_bytes(const tinygltf::Image& image);
+  [[nodiscard]] std::string name_of(std::size_t material) const;
+
+  FileSource& files_;
+  const std::filesystem::path name_;
+  const tinygltf::Model& model_;
+  PartCollector& parts_;
+  std::map<std::size_t, std::shared_ptr<const Cutout>> cutouts_;  // by material
+};
+
+/// Keeps the bytes of an image within the file's own text, to be read when a material asks for it: an image
+/// loader for tinygltf.
+bool keep_image_bytes(tinygltf::Image* image, int index, std::string* fault, std::string* warning, int width,
+                      int height, const unsigned char* bytes, int size, void* unused);
+
+}  // namespace pdsm
