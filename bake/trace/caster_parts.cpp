@@ -26,7 +26,7 @@ void CasterProjector::project(std::size_t begin, std::size_t end, CasterRun& run
   std::size_t first = 0;
   for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
     const LightSpaceMesh& mesh = scene_.meshes[m];
-    if (!mesh.casts) continue;
+    if (!mesh.is_whole_caster()) continue;
     const std::size_t last = first + mesh.triangles.size();
     for (std::size_t t = std::max(begin, first); t < std::min(end, last); ++t)
       add_parts(mesh, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t - first), run);

@@ -141,7 +141,8 @@ class Collector {
 
 std::size_t count_casters(const LightSpaceScene& scene) {
   std::size_t triangles = 0;
-  for (const LightSpaceMesh& mesh : scene.meshes) triangles += mesh.casts ? mesh.triangles.size() : 0;
+  for (const LightSpaceMesh& mesh : scene.meshes)
+    triangles += mesh.is_whole_caster() ? mesh.triangles.size() : 0;
   return triangles;
 }
 
@@ -149,7 +150,7 @@ std::size_t count_casters(const LightSpaceScene& scene) {
 std::size_t count_within(const LightSpaceScene& scene, const CasterVolume& volume) {
   std::size_t triangles = 0;
   for (const LightSpaceMesh& mesh : scene.meshes) {
-    if (!mesh.casts) continue;
+    if (!mesh.is_whole_caster()) continue;
     for (const glm::uvec3& t : mesh.triangles)
       triangles +=
           volume.clip({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]}).count > 0 ? 1 : 0;

@@ -9,7 +9,7 @@
 #include "trace/light_space.h"
 #include "walk/map_grid.h"
 
-/// All caster triangles, projected once for the maps of all light samples.
+/// All caster triangles of meshes without holes, projected once for the maps of all light samples.
 ///
 /// A sample s in the light's plane sees the point Q in the texel
 ///
@@ -56,10 +56,10 @@ struct CasterTriangles {
   [[nodiscard]] bool empty() const { return surfaces.empty(); }
 };
 
-/// Projects the casters of `scene` that some sample's map may hold (CasterVolume); what is nearer than
-/// `first_depth` > 0 is cut off. Ids are in the order of meshes and triangles. Empty where it does not pay,
-/// or floats don't serve: no casters, many more triangles than texels, or triangles so close to the light
-/// that samples see them far apart. Those that no map holds decide nothing.
+/// Projects the casters without holes of `scene` that some sample's map may hold (CasterVolume); what is
+/// nearer than `first_depth` > 0 is cut off. Ids are in the order of meshes and triangles. Empty where it
+/// does not pay, or floats don't serve: no casters, many more triangles than texels, or triangles so close to
+/// the light that samples see them far apart. Those that no map holds decide nothing.
 [[nodiscard]] CasterTriangles project_casters(const LightSpaceScene& scene, const MapGrid& grid,
                                               const LightBounds& light, double first_depth,
                                               std::uint32_t threads);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "pdsm/format/error.h"
+#include "trace/cutout_holes.h"
 
 namespace pdsm {
 namespace {
@@ -29,17 +30,30 @@ void throw_embree_error(void*, RTCError code, const char* message) {
   throw Error(Failure::resource, "embree", std::string(message) + " (" + std::to_string(code) + ")");
 }
 
-void attach_mesh(RTCDevice device, RTCScene scene, const LightSpaceMesh& mesh, unsigned id) {
+unsigned mask_of(const LightSpaceMesh& mesh) {
+  const unsigned caster = !mesh.casts ? 0 : mesh.is_cutout_caster() ? kCutoutMask : kCasterMask;
+  return caster | (mesh.receives ? kReceiverMask : 0U);
+}
+
+RTCGeometry make_geometry(RTCDevice device, const LightSpaceMesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
                              sizeof(glm::vec3), mesh.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                              sizeof(glm::uvec3), mesh.triangles.size());
-  rtcSetGeometryMask(geometry, (mesh.casts ? kCasterMask : 0u) | (mesh.receives ? kReceiverMask : 0u));
+  rtcSetGeometryMask(geometry, mask_of(mesh));
   rtcSetGeometryUserData(geometry, const_cast<LightSpaceMesh*>(&mesh));
+  if (mesh.is_cutout_caster()) rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene, geometry, id);
-  rtcReleaseGeometry(geometry);
+  return geometry;
+}
+
+RTCScene new_scene(RTCDevice device) {
+  RTCScene scene = rtcNewScene(device);
+  // Without the robust flag rays slip through the shared edges of a closed mesh.
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+  return scene;
 }
 
 }  // namespace
@@ -60,18 +74,22 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
   device_ = rtcNewDevice(config.c_str());
   if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device for " + config);
   rtcSetDeviceErrorFunction(device_, throw_embree_error, nullptr);
-  scene_ = rtcNewScene(device_);
-  // Without the robust flag rays slip through the shared edges of a closed mesh.
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+  scene_ = new_scene(device_);
+  if (scene.has_cutouts()) cutouts_ = new_scene(device_);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (!scene.meshes[i].triangles.empty())
-      attach_mesh(device_, scene_, scene.meshes[i], static_cast<unsigned>(i));
+    const LightSpaceMesh& mesh = scene.meshes[i];
+    if (mesh.triangles.empty()) continue;
+    RTCGeometry geometry = make_geometry(device_, mesh);
+    rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
+    if (mesh.is_cutout_caster()) rtcAttachGeometryByID(cutouts_, geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene_);
+  if (cutouts_ != nullptr) rtcCommitScene(cutouts_);
 }
 
 EmbreeScene::~EmbreeScene() {
+  if (cutouts_ != nullptr) rtcReleaseScene(cutouts_);
   if (scene_ != nullptr) rtcReleaseScene(scene_);
   if (device_ != nullptr) rtcReleaseDevice(device_);
 }

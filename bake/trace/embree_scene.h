@@ -9,15 +9,16 @@
 
 namespace pdsm {
 
-/// Ray masks of the baker's scene.
-inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2;
+/// Ray masks of the baker's scene: casters that are whole, receivers, casters with holes. Rays that ask for
+/// the last carry CutoutRays (trace/cutout_holes.h).
+inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2, kCutoutMask = 4;
 
 /// The ISA that Embree will use when asked for `wanted` (empty: the best of this machine). Throws Error
 /// (usage) for an unknown name or one that this machine lacks.
 [[nodiscard]] std::string choose_isa(const std::string& wanted);
 
-/// Embree's device and scene over a light-space scene; the only owner of both handles. Borrows the
-/// positions and triangles: the LightSpaceScene must outlive it. After construction, any thread may trace.
+/// Embree's device and scenes over a light-space scene; the only owner of their handles. Borrows the
+/// meshes: the LightSpaceScene must outlive it. After construction, any thread may trace.
 class EmbreeScene {
  public:
   EmbreeScene(const LightSpaceScene& scene, const std::string& isa, unsigned threads);
@@ -26,12 +27,14 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   [[nodiscard]] RTCScene handle() const { return scene_; }
+  /// The casters with holes alone; null where there are none.
+  [[nodiscard]] RTCScene cutouts() const { return cutouts_; }
   [[nodiscard]] const LightSpaceScene& geometry() const { return geometry_; }
 
  private:
   const LightSpaceScene& geometry_;
   RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
+  RTCScene scene_ = nullptr, cutouts_ = nullptr;
 };
 
 }  // namespace pdsm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/light_space.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pdsm {
@@ -21,11 +22,23 @@ bool is_finite(const glm::vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+bool is_finite(const glm::vec2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+bool is_good(const LightSpaceMesh& mesh, std::uint32_t corner) {
+  return corner < mesh.positions.size() && is_finite(mesh.positions[corner]) &&
+         (!mesh.mask || is_finite(mesh.mask_places[corner]));
+}
+
 LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_light, std::uint64_t& dropped) {
   LightSpaceMesh mesh;
   mesh.casts = geometry.casts;
   mesh.receives = geometry.receives;
   mesh.closed = geometry.mesh->closed;
+  check_mask(*geometry.mesh, geometry.name);
+  mesh.mask = geometry.mesh->mask;
+  mesh.mask_places = geometry.mesh->mask_places;
   const glm::dmat4 local_to_light = world_to_light * geometry.local_to_world;
   // Embree loads 16 bytes a vertex, so one more must be readable behind the last.
   mesh.positions.reserve(geometry.mesh->positions.size() + 1);
@@ -34,10 +47,7 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
   }
   mesh.triangles.reserve(geometry.mesh->triangles.size());
   for (const glm::uvec3& t : geometry.mesh->triangles) {
-    const auto count = mesh.positions.size();
-    const bool good = t.x < count && t.y < count && t.z < count && is_finite(mesh.positions[t.x]) &&
-                      is_finite(mesh.positions[t.y]) && is_finite(mesh.positions[t.z]);
-    if (good)
+    if (is_good(mesh, t.x) && is_good(mesh, t.y) && is_good(mesh, t.z))
       mesh.triangles.push_back(t);
     else
       ++dropped;
@@ -46,6 +56,10 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
 }
 
 }  // namespace
+
+bool LightSpaceScene::has_cutouts() const {
+  return std::ranges::any_of(meshes, &LightSpaceMesh::is_cutout_caster);
+}
 
 LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light) {
   LightSpaceScene result;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "pdsm/bake/scene.h"
@@ -15,14 +16,26 @@ struct LightSpaceMesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
   bool casts = true, receives = true, closed = false;
+  std::shared_ptr<const CutoutMask> mask;  ///< null: nothing is cut out
+  std::vector<glm::vec2> mask_places;      ///< one a position, where there is a mask
+
+  /// Whether all rays that meet it end there.
+  [[nodiscard]] bool is_whole_caster() const { return casts && mask == nullptr; }
+  /// Whether they may pass through.
+  [[nodiscard]] bool is_cutout_caster() const { return casts && mask != nullptr; }
 };
 
-/// The scene as one light sees it. Triangles with coordinates that are not finite are left out and counted.
+/// The scene as one light sees it. Triangles with coordinates or places in a mask that are not finite are
+/// left out and counted.
 struct LightSpaceScene {
   std::vector<LightSpaceMesh> meshes;
   std::uint64_t triangles = 0, dropped_triangles = 0;
+
+  /// Whether any caster has holes.
+  [[nodiscard]] bool has_cutouts() const;
 };
 
+/// Throws as check_mask() does.
 [[nodiscard]] LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light);
 
 }  // namespace pdsm

@@ -42,7 +42,8 @@ void MapRays::fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const 
     packet.ray.tnear[lane] = t_near_;
     packet.ray.tfar[lane] = std::numeric_limits<float>::infinity();
     packet.ray.time[lane] = 0;
-    packet.ray.mask[lane] = kCasterMask;
+    packet.ray.mask[lane] = kCasterMask | kCutoutMask;
+    packet.ray.id[lane] = static_cast<unsigned>(lane);
     packet.ray.flags[lane] = 0;
     packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
   }

@@ -27,8 +27,11 @@ class MapRays {
  public:
   MapRays(const MapGrid& grid, const LightSample& sample);
 
-  /// The rays of the packet whose lower texel is (x0, y0); none has met anything yet.
+  /// The rays of the packet whose lower texel is (x0, y0), their lanes as ids; none has met anything yet.
   void fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const;
+
+  /// Change per texel along `axis` of a ray's direction, or of its origin where all are parallel.
+  [[nodiscard]] double step(std::size_t axis) const { return direction_.step[axis] + origin_.step[axis]; }
 
   /// Depth at t = 0.
   [[nodiscard]] float origin_z() const { return static_cast<float>(origin_.first[2]); }

@@ -24,9 +24,11 @@ void drop_unused_vertices(LightSpaceMesh& mesh) {
   for (std::size_t n = 0; n < number.size(); ++n) {
     if (number[n] == kUnused) continue;
     mesh.positions[count] = mesh.positions[n];
+    if (mesh.mask) mesh.mask_places[count] = mesh.mask_places[n];
     number[n] = count++;
   }
   mesh.positions.resize(count);
+  if (mesh.mask) mesh.mask_places.resize(count);
   for (glm::uvec3& t : mesh.triangles) t = {number[t.x], number[t.y], number[t.z]};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "trace/cutout_holes.h"
 #include "trace/hidden_chunks.h"
 #include "trace/map_rays.h"
 
@@ -89,6 +90,9 @@ std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles&
   enter_casters(casters, shift, left_out, mask, image);
   const MapRays rays(grid, sample);
   const SurfaceBias surface_bias(scene, grid, sample, bias);
+  CutoutRays cutout_rays(grid, sample);
+  alignas(64) int valid[kMapPacketRays];
+  std::fill(std::begin(valid), std::end(valid), -1);
   float nothing[kMapPacketRays];
   std::fill(std::begin(nothing), std::end(nothing), std::numeric_limits<float>::infinity());
   RTCRayHit16 packet;
@@ -99,12 +103,16 @@ std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles&
       if (ahead < rect.x1 && mask.is_wanted(ahead, y)) fetch_surfaces(casters, image, ahead, y);
       if (!mask.is_wanted(x, y)) continue;
       looked_at += kMapPacketRays;
-      if (is_empty(image, x, y)) {
+      if (scene.cutouts() == nullptr && is_empty(image, x, y)) {
         map.set_packet(x, y, nothing);
         continue;
       }
       rays.fill(packet, x, y);
       take_hits(casters, image, x, y, packet);
+      if (scene.cutouts() != nullptr) {
+        cutout_rays.set_packet(x, y);
+        rtcIntersect16(valid, scene.cutouts(), &cutout_rays.context, &packet);
+      }
       store_packet(packet, surface_bias, 0, x, y, map, statistics);
     }
   }

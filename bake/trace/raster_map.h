@@ -17,8 +17,8 @@ void enter_casters(const CasterTriangles& casters, const SampleShift& shift,
 
 /// As trace_sample_map(), for a sample in the light's plane, by projecting `casters` instead of tracing rays:
 /// what is nearest at each texel's centre. Slots `left_out`, in order, count as not there. `scene` is
-/// asked by the slope limit alone. `image` is room to work in. Depths are those of the triangles' planes
-/// within 2^-9 texel of the centres.
+/// asked by the slope limit, and for casters with holes, which are traced. `image` is room to work in. Depths
+/// are those of the triangles' planes within 2^-9 texel of the centres.
 std::uint64_t raster_sample_map(const EmbreeScene& scene, const CasterTriangles& casters, const MapGrid& grid,
                                 const LightSample& sample, const MapBias& bias,
                                 std::span<const std::uint32_t> left_out, const PacketMask& mask,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "trace/cutout_holes.h"
 #include "trace/map_rays.h"
 
 namespace pdsm {
@@ -77,9 +78,7 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
   const SurfaceBias surface_bias(scene, grid, sample, bias);
   alignas(64) int valid[kMapPacketRays];
   std::fill(std::begin(valid), std::end(valid), -1);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  CutoutRays cutout_rays(grid, sample);
   RTCRayHit16 packet;
   std::uint64_t traced = 0;
   const TexelRect& rect = map.rect();
@@ -87,7 +86,8 @@ std::uint64_t trace_sample_map(const EmbreeScene& scene, const MapGrid& grid, co
     for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
       if (mask != nullptr && !mask->is_wanted(x, y)) continue;
       rays.fill(packet, x, y);
-      rtcIntersect16(valid, scene.handle(), &context, &packet);
+      cutout_rays.set_packet(x, y);
+      rtcIntersect16(valid, scene.handle(), &cutout_rays.context, &packet);
       store_packet(packet, surface_bias, rays.origin_z(), x, y, map, statistics);
       traced += kMapPacketRays;
     }

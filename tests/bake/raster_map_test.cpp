@@ -110,6 +110,29 @@ TEST(RasterMap, IsWhatRaysMeetOnBentSheets) {
   }
 }
 
+/// A sheet with holes is traced either way: among all that there is, or after what is whole was projected.
+TEST(RasterMap, SeesThroughHolesAsRaysDo) {
+  Random random(90);
+  CutoutMask mask{2, 2, {255, 0, 0, 255}, {}, 0.5F};
+  for (int n = 0; n < 20; ++n) {
+    LightSpaceScene scene;
+    LightSpaceMesh& holed = scene.meshes.emplace_back(make_sheet(random, random.pick({2, 7, 60}), 3, 1));
+    holed.mask = std::make_shared<const CutoutMask>(mask);
+    // From far more than a texel of a map to far less.
+    const float scale = random.pick({1.0F, 30.0F, 1000.0F});
+    for (const glm::vec3& p : holed.positions) holed.mask_places.push_back(scale * glm::vec2(p));
+    scene.meshes.push_back(make_sheet(random, 7, 4, 1));
+    const Maps maps = make_maps(scene, make_sample(random, n % 4 == 0));
+    expect_same_depths(maps, 2e-3, n);
+    std::size_t through = 0, all = 0;
+    const TexelRect& rect = maps.traced.rect();
+    for (std::int32_t y = rect.y0; y < rect.y1; ++y, all += static_cast<std::size_t>(rect.x1 - rect.x0))
+      for (std::int32_t x = rect.x0; x < rect.x1; ++x) through += maps.traced.at(x, y) > 3.5F ? 1 : 0;
+    EXPECT_GT(through, all / 4) << n;
+    EXPECT_LT(through, 3 * all / 4) << n;
+  }
+}
+
 TEST(RasterMap, LetsNothingSlipThroughEdgesOnTexelCentres) {
   Random random(82);
   for (const int cells : {2, 8, 32, 160}) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "pdsm/bake/scene.h"
+
+namespace pdsm {
+
+/// Whether a surface with this mask is there at `place` (u, v), which is finite: its alpha, linear between
+/// the centres of texels, is at least the cutoff. Any thread.
+[[nodiscard]] bool is_solid(const CutoutMask& mask, const glm::dvec2& place);
+
+}  // namespace pdsm
