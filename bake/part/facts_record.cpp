@@ -20,7 +20,8 @@ enum FactFlag : std::uint32_t {
   kHasShadows = 16,
   kIsProjected = 32,
   kShiftLaw = 64,
-  kAllFlags = 127
+  kHasCutouts = 128,
+  kAllFlags = 255
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -28,7 +29,7 @@ std::uint32_t flags_of(const BakeFacts& facts) {
   return bit(facts.fitted.window_fitted, kWindowFitted) | bit(facts.fitted.near_fitted, kNearFitted) |
          bit(facts.fitted.far_fitted, kFarFitted) | bit(facts.fitted.nothing_casts, kNothingCasts) |
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
-         bit(facts.shift_law, kShiftLaw);
+         bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -39,6 +40,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.has_shadows = (flags & kHasShadows) != 0;
   facts.is_projected = (flags & kIsProjected) != 0;
   facts.shift_law = (flags & kShiftLaw) != 0;
+  facts.has_cutouts = (flags & kHasCutouts) != 0;
 }
 
 bool is_sound(const FactsRecord& record) {

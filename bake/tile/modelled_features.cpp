@@ -59,6 +59,10 @@ void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureLis
                          : "light samples lie out of the light's plane, or triangles are many or close to "
                            "the light",
                 "triangles are projected into them", counted(samples, "traced maps"));
+  if (casts && facts.has_cutouts)
+    list.modelled("cutouts", facts.is_projected
+                                 ? "casters have holes: they are traced, and all others projected"
+                                 : "casters have holes");
   if (casts && facts.shift_law)
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));

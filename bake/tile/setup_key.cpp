@@ -107,6 +107,20 @@ void add_samples(KeyHash& hash, const std::vector<LightSample>& samples) {
   }
 }
 
+/// What marks that a mask follows: no meshes without one run into the same bytes.
+constexpr std::uint64_t kMaskFollows = 0x6b73616d736d6473U;
+
+void add_mask(KeyHash& hash, const LightSpaceMesh& mesh) {
+  static_assert(sizeof(glm::vec2) == 2 * sizeof(float));
+  hash.add(kMaskFollows);
+  hash.add(std::span(mesh.mask_places));
+  hash.add(mesh.mask->width);
+  hash.add(mesh.mask->height);
+  hash.add(std::span(mesh.mask->alpha));
+  hash.add(std::span(mesh.mask->wrap));
+  hash.add(mesh.mask->cutoff);
+}
+
 void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
   static_assert(sizeof(glm::vec3) == 3 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
   hash.add(std::uint64_t{scene.meshes.size()});
@@ -116,6 +130,7 @@ void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
     hash.add(mesh.closed);
     hash.add(std::span(mesh.positions));
     hash.add(std::span(mesh.triangles));
+    if (mesh.mask) add_mask(hash, mesh);
   }
 }
 

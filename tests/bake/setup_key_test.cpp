@@ -24,17 +24,28 @@ struct Bake {
   }
 };
 
+void change_mesh(Bake& bake, const std::function<void(Mesh&)>& change) {
+  Mesh mesh = *bake.scene.geometry[1].mesh;
+  change(mesh);
+  bake.scene.geometry[1].mesh = std::make_shared<const Mesh>(std::move(mesh));
+}
+
+/// A mask on a mesh of the scene, spoilt in one way a test.
+void cut_out(Bake& bake, const std::function<void(Mesh&, CutoutMask&)>& change) {
+  change_mesh(bake, [&](Mesh& mesh) {
+    CutoutMask mask{4, 2, {0, 1, 2, 3, 4, 5, 6, 7}, {}, 0.5F};
+    mesh.closed = false;
+    mesh.mask_places.assign(mesh.positions.size(), glm::vec2(0.5F));
+    change(mesh, mask);
+    mesh.mask = std::make_shared<const CutoutMask>(mask);
+  });
+}
+
 /// The key after a change.
 std::string after(const std::function<void(Bake&)>& change) {
   Bake bake;
   change(bake);
   return bake.key();
-}
-
-void change_mesh(Bake& bake, const std::function<void(Mesh&)>& change) {
-  Mesh mesh = *bake.scene.geometry[1].mesh;
-  change(mesh);
-  bake.scene.geometry[1].mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
 TEST(SetupKey, ChangesWithWhatDecides) {
@@ -69,6 +80,13 @@ TEST(SetupKey, ChangesWithWhatDecides) {
       [](Bake& b) { change_mesh(b, [](Mesh& m) { m.positions[0].x += 0.01F; }); },
       [](Bake& b) { change_mesh(b, [](Mesh& m) { std::swap(m.triangles[0].x, m.triangles[0].y); }); },
       [](Bake& b) { change_mesh(b, [](Mesh& m) { m.closed = !m.closed; }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask&) {}); },
+      [](Bake& b) { cut_out(b, [](Mesh& m, CutoutMask&) { m.mask_places[0].x = 0; }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask& m) { m.alpha[3] = 9; }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask& m) { std::swap(m.width, m.height); }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask& m) { m.wrap[0] = MaskWrap::clamp; }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask& m) { m.wrap[1] = MaskWrap::mirror; }); },
+      [](Bake& b) { cut_out(b, [](Mesh&, CutoutMask& m) { m.cutoff = 0.4F; }); },
   };
   std::set<std::string> seen{Bake().key()};
   for (std::size_t n = 0; n < changes.size(); ++n) EXPECT_TRUE(seen.insert(after(changes[n])).second) << n;
