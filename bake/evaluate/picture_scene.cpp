@@ -25,7 +25,9 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) 
 }  // namespace
 
 PictureScene::PictureScene(const Scene& scene)
-    : scene_(scene), world_(scene, [](const Geometry&) { return true; }) {
+    : scene_(scene),
+      world_(
+          scene, [](const Geometry&) { return true; }, Holes::open) {
   // Instances of one mesh share their normals.
   std::map<const Mesh*, std::shared_ptr<const CornerNormals>> known;
   for (const Geometry& geometry : scene.geometry) {

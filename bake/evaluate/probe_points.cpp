@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "truth/cutout_surface.h"
 #include "truth/random.h"
 #include "truth/solids.h"
 
@@ -21,6 +22,12 @@ constexpr double kOffSurface = 1e-4;
 struct Candidate {
   std::array<glm::dvec3, 3> corners;
   bool both_sides;
+  const Mesh* mesh;
+  glm::uvec3 triangle;
+
+  [[nodiscard]] glm::dvec3 point(const glm::dvec3& weights) const {
+    return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+  }
 };
 
 /// Signed distances to the window's four sides (up to a positive factor); negative is outside.
@@ -55,7 +62,7 @@ double area(const std::array<glm::dvec3, 3>& corners) {
 
 void append_candidates(const Geometry& geometry, const View& view, std::vector<Candidate>& candidates) {
   for (const glm::uvec3& triangle : geometry.mesh->triangles) {
-    Candidate candidate{{}, !geometry.mesh->closed};
+    Candidate candidate{{}, !geometry.mesh->closed, geometry.mesh.get(), triangle};
     for (int c = 0; c < 3; ++c) {
       const glm::vec3& local = geometry.mesh->positions[triangle[c]];
       candidate.corners[static_cast<std::size_t>(c)] = apply(view.world_to_view, to_world(geometry, local));
@@ -66,10 +73,10 @@ void append_candidates(const Geometry& geometry, const View& view, std::vector<C
   }
 }
 
-/// Uniform in a triangle from two numbers in [0, 1).
-glm::dvec3 point_in_triangle(const std::array<glm::dvec3, 3>& corners, const std::array<double, 2>& unit) {
+/// Weights of a triangle's corners, uniform over it, from two numbers in [0, 1).
+glm::dvec3 weights_in_triangle(const std::array<double, 2>& unit) {
   const double root = std::sqrt(unit[0]);
-  return (1 - root) * corners[0] + root * (1 - unit[1]) * corners[1] + root * unit[1] * corners[2];
+  return {1 - root, root * (1 - unit[1]), root * unit[1]};
 }
 
 /// Whether solids hold each side of the surface at `p` (view space) that counts.
@@ -131,7 +138,7 @@ SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t
   SurfaceProbes probes;
   if (candidates.empty()) return probes;
 
-  // Triangles are drawn by area; what falls outside the window, or is buried, is drawn again.
+  // Triangles are drawn by area; what falls outside the window or into a hole, or is buried, is drawn again.
   std::vector<double> area_up_to;
   double total = 0;
   for (const Candidate& candidate : candidates) area_up_to.push_back(total += area(candidate.corners));
@@ -141,8 +148,10 @@ SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t
     const double at = hash_unit(seed, 2 * draw) * total;
     const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
     const Candidate& candidate = candidates[static_cast<std::size_t>(found - area_up_to.begin())];
-    const glm::dvec3 p = point_in_triangle(candidate.corners, hash_unit_pair(seed, 2 * draw + 1));
+    const glm::dvec3 weights = weights_in_triangle(hash_unit_pair(seed, 2 * draw + 1));
+    const glm::dvec3 p = candidate.point(weights);
     if (!in_window(view, p) || p.z > view.far_depth) continue;
+    if (is_hole(*candidate.mesh, candidate.triangle, weights)) continue;
     if (is_buried(solids, view_to_world, candidate, p)) {
       ++probes.buried;
     } else {

@@ -17,10 +17,10 @@ struct SurfaceProbes {
 };
 
 /// Up to `count` points on the receivers of `scene` that lie in the window of `view` and not beyond far,
-/// uniform by area. Closed meshes count where they face the light's centre, open ones everywhere; neither
-/// does within (on all sides that count, a ten-thousandth of the depth off the surface) a closed receiver,
-/// where nothing is seen. Fewer, down to none, when hardly any receiver surface qualifies. Throws Error
-/// (resource) when Embree fails.
+/// uniform by area without holes. Closed meshes count where they face the light's centre, open ones
+/// everywhere; neither does within (on all sides that count, a ten-thousandth of the depth off the surface) a
+/// closed receiver, where nothing is seen. Fewer, down to none, when hardly any receiver surface qualifies.
+/// Throws Error (resource) when Embree fails.
 [[nodiscard]] SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t count,
                                            std::uint64_t seed);
 

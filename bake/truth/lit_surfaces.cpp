@@ -25,7 +25,7 @@ struct LitSurfaces::Context {
   }
 };
 
-LitSurfaces::LitSurfaces(const Scene& scene) : scene_(scene), receivers_(scene, is_receiver) {}
+LitSurfaces::LitSurfaces(const Scene& scene) : scene_(scene), receivers_(scene, is_receiver, Holes::filled) {}
 
 std::optional<LitSurfaces::Hit> LitSurfaces::meet(Heading heading, const glm::dvec3& origin,
                                                   const glm::dvec3& direction, double from, double to) const {

@@ -9,8 +9,8 @@
 
 namespace pdsm {
 
-/// The receivers of a scene, where they face the light. Any thread, also within a filter function of other
-/// rays.
+/// The receivers of a scene, where they face the light; those with masks as if they were whole. Any thread,
+/// also within a filter function of other rays.
 class LitSurfaces {
  public:
   enum class Heading { to_light, from_light };

@@ -88,7 +88,7 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
       emitter_depth_(distant_ ? -std::numeric_limits<double>::infinity() : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
-      casters_(scene, is_caster, [this](const std::array<glm::dvec3, 3>& corners) {
+      casters_(scene, is_caster, Holes::open, [this](const std::array<glm::dvec3, 3>& corners) {
         return std::any_of(corners.begin(), corners.end(), [this](const glm::dvec3& corner) {
           return apply(world_to_light_, corner).z > emitter_depth_;
         });

@@ -15,7 +15,7 @@
 namespace pdsm {
 
 /// Attenuation by shadow rays: the truth that maps are measured against. It shares no visibility code and
-/// no light samples with the baker. All casters of the scene block, window or not.
+/// no light samples with the baker. All casters of the scene block, window or not, but for their holes.
 class ShadowRays {
  public:
   /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never

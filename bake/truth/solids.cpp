@@ -32,7 +32,7 @@ struct Solids::Crossings {
   }
 };
 
-Solids::Solids(const Scene& scene) : closed_(scene, is_closed_receiver) {}
+Solids::Solids(const Scene& scene) : closed_(scene, is_closed_receiver, Holes::filled) {}
 
 bool Solids::hold(const glm::dvec3& world_point) const {
   int holding = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pdsm/format/error.h"
+#include "truth/cutout_surface.h"
 
 namespace pdsm {
 namespace {
@@ -31,6 +32,11 @@ void throw_embree_error(void*, RTCError, const char* message) {
   throw Error(Failure::resource, "embree", message);
 }
 
+template <typename T>
+T* new_buffer(RTCGeometry target, RTCBufferType type, RTCFormat format, std::size_t count) {
+  return static_cast<T*>(rtcSetNewGeometryBuffer(target, type, 0, format, sizeof(T), count));
+}
+
 std::vector<glm::uvec3> kept_triangles(const Geometry& geometry, const KeepTriangle& keep_triangle) {
   const Mesh& mesh = *geometry.mesh;
   if (!keep_triangle) return mesh.triangles;
@@ -51,7 +57,27 @@ glm::dvec3 to_world(const Geometry& geometry, const glm::vec3& position) {
   return glm::dvec3(geometry.local_to_world * glm::dvec4(glm::dvec3(position), 1.0));
 }
 
-WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep,
+/// What the filter of a geometry with a mask knows.
+struct WorldScene::Cutout {
+  RTCGeometry geometry;
+  std::shared_ptr<const CutoutMask> mask;
+
+  static void filter(const RTCFilterFunctionNArguments* args) {
+    const auto& self = *static_cast<const Cutout*>(args->geometryUserPtr);
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+      if (args->valid[i] != -1) continue;
+      glm::vec2 place;
+      rtcInterpolate0(self.geometry, RTCHitN_primID(args->hit, n, i), RTCHitN_u(args->hit, n, i),
+                      RTCHitN_v(args->hit, n, i), RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, &place.x, 2);
+      if (is_hole(*self.mask, glm::dvec2(place))) args->valid[i] = 0;
+    }
+  }
+};
+
+WorldScene::~WorldScene() = default;
+
+WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep, Holes holes,
                        const KeepTriangle& keep_triangle)
     : device_(rtcNewDevice(nullptr)), centre_(bounds_centre(scene, keep)) {
   if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device");
@@ -60,28 +86,41 @@ WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geomet
   // Without the robust flag rays slip through the shared edges of a closed mesh.
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
-    if (keep(scene.geometry[i])) attach(scene.geometry[i], static_cast<unsigned>(i), keep_triangle);
+    if (keep(scene.geometry[i])) attach(scene.geometry[i], static_cast<unsigned>(i), holes, keep_triangle);
   }
   rtcCommitScene(scene_.get());
 }
 
-void WorldScene::attach(const Geometry& geometry, unsigned id, const KeepTriangle& keep_triangle) {
-  const std::vector<glm::vec3>& positions = geometry.mesh->positions;
+void WorldScene::attach(const Geometry& geometry, unsigned id, Holes holes,
+                        const KeepTriangle& keep_triangle) {
+  const Mesh& mesh = *geometry.mesh;
+  check_mask(mesh, geometry.name);
   const std::vector<glm::uvec3> triangles = kept_triangles(geometry, keep_triangle);
   if (triangles.empty()) return;
 
   RTCGeometry target = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-      target, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()));
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    vertices[i] = glm::vec3(to_world(geometry, positions[i]) - centre_);
+  auto* vertices =
+      new_buffer<glm::vec3>(target, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    vertices[i] = glm::vec3(to_world(geometry, mesh.positions[i]) - centre_);
   }
-  auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
-      target, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), triangles.size()));
+  auto* indices = new_buffer<glm::uvec3>(target, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles.size());
   std::copy(triangles.begin(), triangles.end(), indices);
+  if (mesh.mask && holes == Holes::open) cut_out(target, mesh);
   rtcCommitGeometry(target);
   rtcAttachGeometryByID(scene_.get(), target, id);
   rtcReleaseGeometry(target);
+}
+
+void WorldScene::cut_out(RTCGeometry target, const Mesh& mesh) {
+  rtcSetGeometryVertexAttributeCount(target, 1);
+  auto* places = new_buffer<glm::vec2>(target, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, RTC_FORMAT_FLOAT2,
+                                       mesh.mask_places.size());
+  std::copy(mesh.mask_places.begin(), mesh.mask_places.end(), places);
+  cutouts_.push_back(std::make_unique<const Cutout>(Cutout{target, mesh.mask}));
+  rtcSetGeometryUserData(target, const_cast<Cutout*>(cutouts_.back().get()));
+  rtcSetGeometryIntersectFilterFunction(target, Cutout::filter);
+  rtcSetGeometryOccludedFilterFunction(target, Cutout::filter);
 }
 
 }  // namespace pdsm

@@ -7,10 +7,14 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "pdsm/bake/scene.h"
 
 namespace pdsm {
+
+/// What rays find in the holes of meshes with masks: the surface as if it were whole, or nothing.
+enum class Holes { filled, open };
 
 /// Which triangle of a scene, given by its corners in world space, goes into a WorldScene.
 using KeepTriangle = std::function<bool(const std::array<glm::dvec3, 3>&)>;
@@ -21,8 +25,10 @@ using KeepTriangle = std::function<bool(const std::array<glm::dvec3, 3>&)>;
 /// Geometry n of the scene has the geometry id n; its triangles keep their numbers unless some are left out.
 class WorldScene {
  public:
-  /// Holds the geometry that `keep` accepts. Throws Error (resource) when Embree fails.
-  WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep,
+  /// Holds the geometry that `keep` accepts. Borrows its masks. Throws Error (resource) when Embree fails,
+  /// and as check_mask() does.
+  ~WorldScene();
+  WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep, Holes holes,
              const KeepTriangle& keep_triangle = {});
 
   [[nodiscard]] RTCScene handle() const { return scene_.get(); }
@@ -37,8 +43,12 @@ class WorldScene {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
 
-  void attach(const Geometry& geometry, unsigned id, const KeepTriangle& keep_triangle);
+  struct Cutout;
 
+  void attach(const Geometry& geometry, unsigned id, Holes holes, const KeepTriangle& keep_triangle);
+  void cut_out(RTCGeometry target, const Mesh& mesh);
+
+  std::vector<std::unique_ptr<const Cutout>> cutouts_;  ///< that filters ask, as long as there are rays
   std::unique_ptr<RTCDeviceTy, ReleaseDevice> device_;
   std::unique_ptr<RTCSceneTy, ReleaseScene> scene_;
   glm::dvec3 centre_{0};
