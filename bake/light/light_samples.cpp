@@ -9,7 +9,9 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "light/emission_warp.h"
 #include "pdsm/bake/bake.h"
 
 namespace pdsm {
@@ -87,13 +89,23 @@ std::uint32_t strata_rows(const RectLight& light, std::uint32_t count) {
   return static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(count))));
 }
 
-Point2 sample_shape(const RectLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
-                    std::uint64_t seed) {
+/// A point of the unit square that stands for the light's face.
+Point2 rect_point(const RectLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
+                  std::uint64_t seed) {
   const Point2 p = points == PointSet::lattice ? lattice_point(i, count, seed)
                                                : jittered_point(i, count, strata_rows(light, count), seed);
   // A line along y takes the lattice's even coordinate.
   const bool swap = points == PointSet::lattice && light.width == 0;
-  return {(p[0] - 0.5) * light.width, (p[swap ? 0 : 1] - 0.5) * light.height};
+  return {p[0], p[swap ? 0 : 1]};
+}
+
+Point2 on_face(const RectLight& light, const Point2& unit) {
+  return {(unit[0] - 0.5) * light.width, (unit[1] - 0.5) * light.height};
+}
+
+Point2 sample_shape(const RectLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
+                    std::uint64_t seed) {
+  return on_face(light, rect_point(light, i, count, points, seed));
 }
 
 Point2 sample_shape(const DiskLight& light, std::uint32_t i, std::uint32_t count, PointSet points,
@@ -116,6 +128,19 @@ Point2 sample_shape(const DistantLight& light, std::uint32_t i, std::uint32_t co
   return {p[0] * scale, p[1] * scale};
 }
 
+/// One sample stands for the whole light at its centre.
+Point2 sample_light(const LightShape& any_shape, std::uint32_t i, std::uint32_t count, PointSet points,
+                    std::uint64_t seed) {
+  if (count == 1) return {0, 0};
+  return std::visit([&](const auto& shape) { return sample_shape(shape, i, count, points, seed); },
+                    any_shape);
+}
+
+Point2 sample_picture(const RectLight& light, const EmissionWarp& warp, std::uint32_t i, std::uint32_t count,
+                      PointSet points, std::uint64_t seed) {
+  return on_face(light, warp(count == 1 ? Point2{0.5, 0.5} : rect_point(light, i, count, points, seed)));
+}
+
 /// In [-0.5, 0.5), 0 for the first sample of seed 0.
 float map_jitter(std::uint32_t i, double alpha, std::uint64_t seed, std::uint64_t dimension) {
   const auto jitter = static_cast<float>(fraction(0.5 + i * alpha + seed_shift(seed, dimension)) - 0.5);
@@ -128,13 +153,11 @@ std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t co
                                             std::uint64_t seed) {
   assert(count >= 1);
   std::vector<LightSample> samples(count);
+  std::optional<EmissionWarp> warp;
+  if (light.emission) warp.emplace(*light.emission);
   for (std::uint32_t i = 0; i < count; ++i) {
-    // One sample stands for the whole light at its centre.
-    const Point2 p =
-        count == 1
-            ? Point2{0, 0}
-            : std::visit([&](const auto& shape) { return sample_shape(shape, i, count, points, seed); },
-                         light.shape);
+    const Point2 p = warp ? sample_picture(std::get<RectLight>(light.shape), *warp, i, count, points, seed)
+                          : sample_light(light.shape, i, count, points, seed);
     samples[i].position = {p[0], p[1], is_distant(light) ? 1.0 : 0.0};
     samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4),
                          map_jitter(i, kInversePlasticSquared, seed, 5)};

@@ -341,6 +341,7 @@ void check_request(const Light& light) {
   if (light.far_depth && !(*light.far_depth > 0 && std::isfinite(*light.far_depth))) {
     refuse("far", "must be a number > 0");
   }
+  check_emission(light);
   if (!light.window) return;
   const Window& w = *light.window;
   const bool finite = std::ranges::all_of(w, [](double t) { return std::isfinite(t); });

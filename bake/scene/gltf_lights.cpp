@@ -14,7 +14,6 @@
 #include "scene/json_document.h"
 #include "scene/json_fields.h"
 #include "scene/one_line.h"
-#include "scene/read_light.h"
 
 namespace pdsm {
 namespace {
@@ -69,10 +68,10 @@ class LightNode {
         file_extensions_(file_extensions) {}
 
   /// The light, or nothing; `left_out` then tells why, if there is one all the same.
-  std::optional<Light> read(std::string& left_out) const {
+  std::optional<Light> read(const EmissionReader& read_emission, std::string& left_out) const {
     if (const json* own = member(extras_, "pdsm_light")) {
       const JsonFields fields(*own, file_, path_ + ".extras.pdsm_light");
-      return read_placed_light(fields, name_, place_of(node_to_file_));
+      return read_placed_light(fields, name_, place_of(node_to_file_), read_emission);
     }
     if (const json* use = member(extensions_, "EXT_lights_area")) return read_area(*use);
     if (const json* use = member(extensions_, "KHR_lights_punctual")) return read_punctual(*use, left_out);
@@ -181,7 +180,7 @@ void GltfLights::take(const tinygltf::Model& model, std::size_t node, const glm:
   if (name.empty()) name = fmt::format("light{}", lights.size() + 1);
   const std::string path = join_path("nodes", node);
   const LightNode light_node(from, std::move(name), node_to_file, *extensions_, file_, path);
-  const std::optional<Light> light = light_node.read(left_out);
+  const std::optional<Light> light = light_node.read(read_emission_, left_out);
   if (light) add(*light, path);
   if (!left_out.empty())
     warnings.push_back(fmt::format("{}: {} ({}): left out: {}", file_, path, one_line(from.name), left_out));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pdsm/bake/scene.h"
+#include "scene/read_light.h"
 #include "scene/tiny_gltf.h"
 
 namespace pdsm {
@@ -19,7 +20,8 @@ namespace pdsm {
 class GltfLights {
  public:
   /// `file` is for messages.
-  explicit GltfLights(std::string file) : file_(std::move(file)) {}
+  GltfLights(std::string file, EmissionReader read_emission)
+      : file_(std::move(file)), read_emission_(std::move(read_emission)) {}
 
   /// Takes the light of a node, if it has one. Throws Error (input) "file:nodes[2].extras...: reason".
   void take(const tinygltf::Model& model, std::size_t node, const glm::dmat4& node_to_file);
@@ -31,6 +33,7 @@ class GltfLights {
   void add(const Light& light, const std::string& path);
 
   std::string file_;
+  EmissionReader read_emission_;
   std::optional<nlohmann::json> extensions_;    ///< the file's
   std::map<std::string, std::string> node_of_;  ///< by light's name
 };

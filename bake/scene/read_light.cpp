@@ -47,7 +47,6 @@ LightShape read_shape(const JsonFields& fields) {
 }
 
 void refuse_unsupported(const JsonFields& fields) {
-  if (fields.has("emission")) fields.refuse("emission", "not supported yet");
   const json* faces = fields.find("faces");
   if (faces == nullptr || *faces == 1) return;
   if (*faces == 5 || *faces == 6) fields.refuse("faces", "5 or 6 faces: not supported yet");
@@ -123,7 +122,8 @@ void read_frame(const JsonFields& fields, Light& light) {
 }
 
 /// All but the light's frame.
-Light read_unplaced_light(const JsonFields& fields, const std::string& default_name) {
+Light read_unplaced_light(const JsonFields& fields, const std::string& default_name,
+                          const EmissionReader& read_emission) {
   Light light;
   light.shape = read_shape(fields);
   refuse_unsupported(fields);
@@ -132,23 +132,30 @@ Light read_unplaced_light(const JsonFields& fields, const std::string& default_n
   read_depths(fields, light);
   if (fields.has("resolution")) light.resolution = read_resolution(fields);
   if (fields.has("samples")) light.samples = fields.count("samples", kMaxSamples);
+  if (fields.has("emission")) {
+    if (!std::holds_alternative<RectLight>(light.shape))
+      fields.refuse("emission", "of lights that are not rect: not supported yet");
+    light.emission = read_emission(fields);
+  }
   return light;
 }
 
 }  // namespace
 
-Light read_light(const json& node, const std::string& file, std::size_t index) {
+Light read_light(const json& node, const std::string& file, std::size_t index,
+                 const EmissionReader& read_emission) {
   const JsonFields fields(node, file, join_path("lights", index));
-  Light light = read_unplaced_light(fields, fmt::format("light{}", index + 1));
+  Light light = read_unplaced_light(fields, fmt::format("light{}", index + 1), read_emission);
   read_frame(fields, light);
   return light;
 }
 
-Light read_placed_light(const JsonFields& fields, const std::string& default_name, const LightPlace& place) {
+Light read_placed_light(const JsonFields& fields, const std::string& default_name, const LightPlace& place,
+                        const EmissionReader& read_emission) {
   for (const char* key : {"position", "direction", "up"}) {
     if (fields.has(key)) fields.refuse(key, "is given by the node");
   }
-  Light light = read_unplaced_light(fields, default_name);
+  Light light = read_unplaced_light(fields, default_name, read_emission);
   set_place(place, light);
   return light;
 }

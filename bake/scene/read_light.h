@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,14 +17,18 @@ struct LightPlace {
   glm::dvec3 position, direction, up;
 };
 
+/// Reads the picture that the field "emission" names. Throws Error (input).
+using EmissionReader = std::function<std::shared_ptr<const EmissionImage>(const JsonFields&)>;
+
 /// One element of a scene file's "lights". A light without a name is called light1, light2, ... by its
 /// place. A distant one has no position yet. Throws Error (input) "file:lights[index].field: reason".
-[[nodiscard]] Light read_light(const nlohmann::json& node, const std::string& file, std::size_t index);
+[[nodiscard]] Light read_light(const nlohmann::json& node, const std::string& file, std::size_t index,
+                               const EmissionReader& read_emission);
 
 /// The same of a light object whose place is given: it has no position, direction and up of its own. The
 /// place is not checked.
 [[nodiscard]] Light read_placed_light(const JsonFields& fields, const std::string& default_name,
-                                      const LightPlace& place);
+                                      const LightPlace& place, const EmissionReader& read_emission);
 
 /// Puts a light there. A distant one takes the direction alone.
 void set_place(const LightPlace& place, Light& light);

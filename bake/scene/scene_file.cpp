@@ -9,13 +9,17 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "light/emission_check.h"
 #include "pdsm/format/error.h"
+#include "scene/emission_image.h"
 #include "scene/file_source.h"
+#include "scene/format_fault.h"
 #include "scene/geometry_import.h"
 #include "scene/gltf_lights.h"
 #include "scene/json_document.h"
 #include "scene/json_fields.h"
 #include "scene/light_check.h"
+#include "scene/one_line.h"
 #include "scene/placement.h"
 #include "scene/read_light.h"
 
@@ -41,6 +45,7 @@ class SceneReader {
   void read_geometry(const json& node, std::size_t index);
   const std::vector<Geometry>& import(const JsonFields& fields);
   void read_lights(const json& nodes);
+  std::shared_ptr<const EmissionImage> read_picture(const JsonFields& fields);
   void warn_of(const ImportedFile& file, const std::string& name);
 
   fs::path path_;
@@ -113,10 +118,26 @@ void SceneReader::read_geometry(const json& node, std::size_t index) {
   }
 }
 
+std::shared_ptr<const EmissionImage> SceneReader::read_picture(const JsonFields& fields) {
+  const std::string name = fields.text("emission");
+  if (name.empty() || name.find('\0') != std::string::npos) fields.refuse("emission", "must name a file");
+  const fs::path path = path_.parent_path() / fs::path(name);
+  try {
+    auto image = read_emission(files_.read(path));
+    if (const char* reason = emission_fault(*image)) throw FormatFault(reason);
+    return image;
+  } catch (const Error& fault) {
+    throw Error(fault.failure(), fields.file() + ":" + fields.path_of("emission"), fault.what());
+  } catch (const FormatFault& fault) {
+    fields.refuse("emission", path.string() + ": " + one_line(fault.what()));
+  }
+}
+
 void SceneReader::read_lights(const json& nodes) {
   std::map<std::string, std::size_t> names;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Light light = read_light(nodes[i], file_, i);
+    Light light =
+        read_light(nodes[i], file_, i, [this](const JsonFields& fields) { return read_picture(fields); });
     const auto [other, fresh] = names.emplace(light.name, i);
     if (!fresh) {
       throw Error(Failure::input, file_ + ":" + join_path(join_path("lights", i), "name"),
@@ -140,7 +161,7 @@ void SceneReader::read_json() {
 }
 
 void SceneReader::read_gltf() {
-  GltfLights lights(file_);
+  GltfLights lights(file_, [this](const JsonFields& fields) { return read_picture(fields); });
   ImportedFile file = import_gltf(files_, unpacked_name(path_), files_.read_unpacked(path_), &lights);
   warn_of(file, path_.filename().string());
   scene_.geometry = std::move(file.parts);

@@ -32,6 +32,7 @@ BakeFacts gather_facts(const BakeJob& job) {
   facts.has_shadows = job.has_shadows();
   facts.is_projected = !job.casters.empty();
   facts.shift_law = job.shift_law();
+  facts.has_emission = job.has_emission;
   facts.has_cutouts = job.light_space.has_cutouts();
   facts.slope_limit_from = job.slope_limit.from;
   facts.dropped_triangles = job.light_space.dropped_triangles;

@@ -106,7 +106,8 @@ double default_bias(const MapGrid& grid) {
 }  // namespace
 
 BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted)
-    : options(fill_in(wanted)),
+    : has_emission(light.emission != nullptr),
+      options(fill_in(wanted)),
       fitted(fit_view(scene, light, options.width, options.height)),
       samples(options.light_samples.empty()
                   ? make_light_samples(light, options.samples, options.points, options.seed)

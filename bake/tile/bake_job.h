@@ -16,7 +16,8 @@ namespace pdsm {
 struct BakeSetup {
   BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options);
 
-  BakeOptions options;  ///< with all defaults filled in, but for the ISA
+  bool has_emission = false;  ///< the light has a picture
+  BakeOptions options;        ///< with all defaults filled in, but for the ISA
   FittedView fitted;
   std::vector<LightSample> samples;
   MapGrid grid;

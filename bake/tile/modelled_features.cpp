@@ -59,6 +59,8 @@ void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureLis
                          : "light samples lie out of the light's plane, or triangles are many or close to "
                            "the light",
                 "triangles are projected into them", counted(samples, "traced maps"));
+  if (facts.has_emission)
+    list.modelled("emission", "the light has a picture: samples lie where it is bright, by luminance");
   if (casts && facts.has_cutouts)
     list.modelled("cutouts", facts.is_projected
                                  ? "casters have holes: they are traced, and all others projected"

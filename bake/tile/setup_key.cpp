@@ -54,12 +54,17 @@ class KeyHash {
   std::unique_ptr<XXH3_state_t, Free> state_;
 };
 
+/// What marks that the light has a picture: no light without one runs into the same bytes.
+constexpr std::uint64_t kPictureFollows = 0x65727574636970U;
+
 void add_light(KeyHash& hash, const Light& light) {
   hash.add(light.name);
   hash.add(light.shape.index());
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) hash.add(sun->angle);
   for (const double extent : half_extents(light)) hash.add(extent);
   for (int axis = 0; axis < 3; ++axis) hash.add(light.position[axis]);
+  // What a picture holds shows in the samples; that there is one, in what is told of the map.
+  if (light.emission) hash.add(kPictureFollows);
 }
 
 void add_view(KeyHash& hash, const FittedView& fitted) {

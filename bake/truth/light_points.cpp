@@ -32,6 +32,20 @@ glm::dvec3 cap_direction(double angle, const std::array<double, 2>& disk) {
   return {disk[0] * scale, disk[1] * scale, 1};
 }
 
+struct Bin {
+  std::size_t index = 0;
+  double within = 0;
+};
+
+/// The last bin that begins at or before `unit` in [0, 1), and how far into it that is. Bins without a share
+/// begin where the next one does, or at 1.
+template <typename Iterator>
+Bin find_bin(Iterator begin, Iterator end, double unit) {
+  const Iterator after = std::upper_bound(begin, end, unit), bin = std::prev(after);
+  const double close = after == end ? 1 : *after;
+  return {static_cast<std::size_t>(bin - begin), (unit - *bin) / (close - *bin)};
+}
+
 }  // namespace
 
 glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit) {
@@ -42,6 +56,41 @@ glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit) {
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) return cap_direction(sun->angle, disk);
   const double radius = std::get<DiskLight>(light.shape).radius;
   return {disk[0] * radius, disk[1] * radius, 0};
+}
+
+LightSurface::LightSurface(const Light& light) : light_(light) {
+  if (!light.emission) return;
+  const EmissionImage& image = *light.emission;
+  const std::size_t width = image.width, height = image.height;
+  share_before_.assign(width + width * height, 0);
+  std::vector<double> column_sum(width, 0);
+  double total = 0;
+  for (std::size_t i = 0; i < width; ++i) {
+    for (std::size_t j = 0; j < height; ++j) {
+      share_before_[width + i * height + j] = column_sum[i];
+      column_sum[i] += static_cast<double>(image.luminance[j * width + i]);
+    }
+    share_before_[i] = total;
+    total += column_sum[i];
+  }
+  for (std::size_t i = 0; i < width; ++i) {
+    share_before_[i] /= total;
+    for (std::size_t j = 0; j < height && column_sum[i] > 0; ++j)
+      share_before_[width + i * height + j] /= column_sum[i];
+  }
+}
+
+glm::dvec3 LightSurface::point(const std::array<double, 2>& unit) const {
+  if (!light_.emission) return light_point(light_, unit);
+  const std::size_t width = light_.emission->width, height = light_.emission->height;
+  const auto shares = share_before_.begin();
+  const auto columns = shares + static_cast<std::ptrdiff_t>(width);
+  const Bin column = find_bin(shares, columns, unit[0]);
+  const auto texels = columns + static_cast<std::ptrdiff_t>(column.index * height);
+  const Bin texel = find_bin(texels, texels + static_cast<std::ptrdiff_t>(height), unit[1]);
+  return light_point(light_,
+                     {(static_cast<double>(column.index) + column.within) / static_cast<double>(width),
+                      (static_cast<double>(texel.index) + texel.within) / static_cast<double>(height)});
 }
 
 JitteredGrid::JitteredGrid(std::uint32_t count)

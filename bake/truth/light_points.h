@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "pdsm/bake/scene.h"
 
@@ -14,6 +15,19 @@ namespace pdsm {
 /// Rect: scaled. Disk: the concentric map, which keeps strata compact. Distant: that map lifted to the
 /// sphere. Paper: Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997.
 [[nodiscard]] glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit);
+
+/// The same for a light with a picture: equal areas of the square go to parts that emit the same. By columns
+/// first, then along the column.
+class LightSurface {
+ public:
+  explicit LightSurface(const Light& light);
+
+  [[nodiscard]] glm::dvec3 point(const std::array<double, 2>& unit) const;
+
+ private:
+  Light light_;
+  std::vector<double> share_before_;  ///< of columns, then of each column's texels; none without a picture
+};
 
 /// A stratified jittered set of any size in the unit square. The square is cut into about sqrt(count) rows
 /// and each row into cells, so that every cell has area 1/count; a row with one cell more is that much

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <limits>
 
-#include "truth/light_points.h"
 #include "truth/random.h"
 
 namespace pdsm {
@@ -97,7 +96,7 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
   const JitteredGrid grid(samples);
-  const auto drawn = [&](std::uint32_t n) { return LightPoint{light_point(light_, grid.point(n, seed))}; };
+  const auto drawn = [&](std::uint32_t n) { return LightPoint{light_.point(grid.point(n, seed))}; };
   return share_blocked(world_point, samples, drawn, nullptr);
 }
 

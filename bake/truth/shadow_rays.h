@@ -10,6 +10,7 @@
 #include "pdsm/bake/scene.h"
 #include "pdsm/format/penumbra_map.h"
 #include "truth/caster_bias.h"
+#include "truth/light_points.h"
 #include "truth/world_scene.h"
 
 namespace pdsm {
@@ -50,7 +51,7 @@ class ShadowRays {
   void add_ray(const LightPoint& point, Packet& packet) const;
   [[nodiscard]] int count_blocked(const Packet& packet, const CasterBias* bias) const;
 
-  Light light_;
+  LightSurface light_;
   RigidTransform world_to_light_, light_to_world_;
   bool distant_;
   double emitter_depth_;  ///< light-space z up to which nothing blocks

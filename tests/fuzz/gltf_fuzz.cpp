@@ -25,7 +25,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr const char* kName = "/dev/null/a.glb";
   refused_or_read([&] {
     pdsm::FileSource files;
-    pdsm::GltfLights lights(kName);
+    pdsm::GltfLights lights(kName, [](const pdsm::JsonFields& fields) {
+      fields.refuse("emission", "no such file");
+      return nullptr;
+    });
     demand_sound(
         pdsm::import_gltf(files, kName, std::string(reinterpret_cast<const char*>(data), size), &lights));
     for (const pdsm::Light& light : lights.lights) demand_frame(light);

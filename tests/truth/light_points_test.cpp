@@ -76,6 +76,22 @@ TEST(LightPoint, RectFillsTheRect) {
   EXPECT_EQ(light_point(light, {0.75, 0.25}), glm::dvec3(1, -0.5, 0));
 }
 
+TEST(LightSurface, GivesEachTexelItsShare) {
+  Light light = light_at_origin(RectLight{2, 2});
+  // Shares of columns and, within them, of texels are multiples of 1/16.
+  light.emission = std::make_shared<const EmissionImage>(EmissionImage{3, 2, {2, 0, 1, 2, 0, 3}});
+  const LightSurface surface(light);
+  std::array<int, 6> count{};
+  for (int i = 0; i < 256; ++i) {
+    const glm::dvec3 p = surface.point({(i % 16 + 0.5) / 16, (static_cast<double>(i / 16) + 0.5) / 16});
+    ASSERT_EQ(p.z, 0);
+    const double u = (p.x + 1) / 2, v = (p.y + 1) / 2;
+    ASSERT_TRUE(u >= 0 && u < 1 && v >= 0 && v < 1);
+    ++count[(v < 0.5 ? 0U : 3U) + static_cast<std::size_t>(3 * u)];
+  }
+  EXPECT_EQ(count, (std::array<int, 6>{64, 0, 32, 64, 0, 96}));
+}
+
 TEST(LightPoint, DiskKeepsAreas) {
   // A grid of equal cells: the share of points within radius r is r^2, up to the cells that the circle cuts.
   constexpr std::uint32_t kSide = 256;

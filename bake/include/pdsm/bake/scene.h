@@ -76,6 +76,13 @@ struct DistantLight {
 /// A wider disk would be a sky: towards its rim, tangents and with them walks grow beyond all bounds.
 inline constexpr double kMostDistantAngle = 90;
 
+/// Where a light emits how much: a picture over its face, constant within each texel. Only ratios matter.
+struct EmissionImage {
+  std::uint32_t width = 0, height = 0;  ///< texels, 1 .. kMostEmissionTexels
+  std::vector<float> luminance;  ///< row by row along light x, the row at -y first; finite, >= 0, not all 0
+};
+inline constexpr std::uint32_t kMostEmissionTexels = 8192;
+
 using LightShape = std::variant<RectLight, DiskLight, DistantLight>;
 
 /// A one-sided planar area light, or a distant one.
@@ -92,7 +99,11 @@ struct Light {
   std::optional<double> near_depth, far_depth;             ///< metres; default fitted
   std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
   std::optional<std::uint32_t> samples;
+  std::shared_ptr<const EmissionImage> emission;  ///< of a rect light; null: the same everywhere
 };
+
+/// Throws Error (input) "name.emission: reason" for what is not as described above. Baking calls it.
+void check_emission(const Light& light);
 
 struct Scene {
   std::string source;  ///< path of the scene file, for messages; may be empty

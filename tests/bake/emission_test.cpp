@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights with a picture: as many samples lie in a part as it emits of the whole, and V is the emission's
+// share.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "light/emission_warp.h"
+#include "pdsm/format/error.h"
+#include "support/baked_functions.h"
+#include "support/compare.h"
+#include "support/exact_truth.h"
+
+namespace pdsm::test {
+namespace {
+
+constexpr double kOccluder = 3, kFar = 8;
+
+std::shared_ptr<const EmissionImage> picture(std::uint32_t width, std::uint32_t height,
+                                             std::vector<float> luminance) {
+  return std::make_shared<const EmissionImage>(EmissionImage{width, height, std::move(luminance)});
+}
+
+TEST(EmissionWarp, GivesEachTexelItsShare) {
+  // Shares of rows and, within them, of texels are multiples of 1/16: a grid of 16 x 16 falls apart exactly.
+  const EmissionWarp warp(*picture(2, 2, {1, 3, 0, 4}));
+  std::array<int, 4> count{};
+  for (int i = 0; i < 256; ++i) {
+    const auto [x, y] = warp({(i % 16 + 0.5) / 16, (static_cast<double>(i / 16) + 0.5) / 16});
+    ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1);
+    ++count[(y < 0.5 ? 0U : 2U) + (x < 0.5 ? 0U : 1U)];
+  }
+  EXPECT_EQ(count, (std::array<int, 4>{32, 96, 0, 128}));
+}
+
+TEST(EmissionWarp, IsLinearWithinTexels) {
+  const EmissionWarp warp(*picture(2, 1, {1, 3}));
+  EXPECT_DOUBLE_EQ(warp({0.125, 0.3})[0], 0.25);
+  EXPECT_DOUBLE_EQ(warp({0.625, 0.3})[0], 0.75);
+  EXPECT_DOUBLE_EQ(warp({0.625, 0.3})[1], 0.3);
+}
+
+TEST(EmissionWarp, NeverEndsInTheDark) {
+  // Dark borders all around, and sums that don't end where the last bright texel does.
+  const auto image = picture(5, 4, {0, 0, 0, 0, 0, 0, 0.1F, 0, 0.7F, 0, 0, 0.3F, 0, 0, 0, 0, 0, 0, 0, 0});
+  const EmissionWarp warp(*image);
+  const double last = 1 - std::numeric_limits<double>::epsilon() / 2;
+  for (const double u : {0.0, 0.1, 0.125, 0.5, 0.7272727272727273, 0.99, last}) {
+    for (const double v : {0.0, 0.1, 0.5, 0.7272727272727273, 0.99, last}) {
+      const auto [x, y] = warp({u, v});
+      // A texel's far border counts as its own.
+      const auto on = [&](double a, double b) {
+        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+        return i < 5 && j < 4 && image->luminance[5 * j + i] > 0;
+      };
+      const double a = 5 * x, b = 4 * y, tiny = 1e-12;
+      EXPECT_TRUE(on(a, b) || on(a - tiny, b) || on(a, b - tiny) || on(a - tiny, b - tiny)) << u << " " << v;
+    }
+  }
+}
+
+/// Two halves, one three times as bright as the other: of the light beyond q in [-1, 1] comes this share.
+double beyond(double q) {
+  const double x = std::clamp(q, -1.0, 1.0);
+  return x >= 0 ? 0.75 * (1 - x) : 0.75 - 0.25 * x;
+}
+
+TEST(Emission, TwoHalvesBehindAnEdge) {
+  constexpr std::uint32_t kSamples = 256;
+  const double edge = 0.3;
+  Light light = rect_light(2, 1);
+  light.emission = picture(2, 1, {1, 3});
+  set_view(light, 0.5, 0.25, 2, kFar);
+  Scene scene;
+  add(scene, Plate{edge, -kWide, kWide, kWide, kOccluder});
+  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
+  for (const PointSet points : {PointSet::lattice, PointSet::jittered}) {
+    BakeOptions options = small_options(33, 5, kSamples);
+    options.map_width = 4 * 33;
+    options.map_height = 4 * 5;
+    options.points = points;
+    const BakedFunctions baked(scene, light, options);
+    const double moved = texel_reach(options.walk) * baked.map_pitch_x() * kOccluder;
+    const double delta = baked.report().depth_tolerance;
+    // The edge is one in the square that is warped, too.
+    const double slack = sampling_tolerance(edge_strata(kSamples), kSamples) + baked.report().epsilon;
+    for (std::uint32_t i = 0; i < 33; ++i) {
+      for (const double z : {4.0, 5.0, 6.5, 7.9}) {
+        double low = 1, high = 0;
+        for (const double depth : {z - delta, z + delta}) {
+          low = std::min(low, beyond(back_project(edge + moved, kOccluder, baked.slope_x(i), depth)));
+          high = std::max(high, beyond(back_project(edge - moved, kOccluder, baked.slope_x(i), depth)));
+        }
+        EXPECT_GE(baked.value(i, 2, z), low - slack) << i << " " << z;
+        EXPECT_LE(baked.value(i, 2, z), high + slack) << i << " " << z;
+      }
+    }
+  }
+}
+
+TEST(Emission, APictureOfOneTexelChangesNoFunction) {
+  Light light = rect_light(2, 1);
+  set_view(light, 0.5, 0.25, 2, kFar);
+  Scene scene;
+  add(scene, Plate{0.3, -kWide, kWide, kWide, kOccluder});
+  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
+  const BakedFunctions plain(scene, light, small_options(33, 5, 64));
+  light.emission = picture(1, 1, {0.2F});
+  const BakedFunctions lit(scene, light, small_options(33, 5, 64));
+  expect_same_level(plain, lit, 0);
+  // What is told of the map is not the same, and so is its key.
+  EXPECT_NE(plain.report().key, lit.report().key);
+}
+
+TEST(Emission, OneSampleIsTheMiddleOfWhatIsEmitted) {
+  Light light = rect_light(2, 1);
+  light.emission = picture(4, 1, {0, 0, 0, 1});
+  const auto samples = make_light_samples(light, 1, PointSet::lattice, 0);
+  EXPECT_DOUBLE_EQ(samples[0].position[0], 0.75);
+  EXPECT_DOUBLE_EQ(samples[0].position[1], 0);
+}
+
+TEST(Emission, ALineTakesItsPictureAlong) {
+  Light light = rect_light(0, 2);
+  light.emission = picture(1, 2, {1, 3});
+  int above = 0;
+  for (const LightSample& sample : make_light_samples(light, 400, PointSet::lattice, 0))
+    above += sample.position[1] > 0 ? 1 : 0;
+  EXPECT_EQ(above, 300);
+}
+
+TEST(Emission, RefusesWhatIsNoPicture) {
+  const auto fault = [](Light light, std::shared_ptr<const EmissionImage> image) -> std::string {
+    light.emission = std::move(image);
+    try {
+      check_emission(light);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.failure(), Failure::input);
+      return error.what();
+    }
+    return "";
+  };
+  const Light rect = rect_light(1, 1);
+  const std::string name = rect.name + ".emission: ";
+  EXPECT_EQ(fault(rect, nullptr), "");
+  EXPECT_EQ(fault(rect, picture(2, 1, {0, 1})), "");
+  EXPECT_EQ(fault(rect, picture(2, 1, {0, 0})), name + "is black");
+  EXPECT_EQ(fault(rect, picture(2, 1, {1, -1})), name + "must be finite and not negative");
+  EXPECT_EQ(fault(rect, picture(1, 1, {NAN})), name + "must be finite and not negative");
+  for (const auto& image : {picture(2, 2, {1, 1}), picture(0, 1, {}), picture(8193, 1, {1})})
+    EXPECT_EQ(fault(rect, image).find(name + "must have as many values"), 0U);
+  Light disk = rect;
+  disk.shape = DiskLight{1};
+  EXPECT_EQ(fault(disk, picture(1, 1, {1})), name + "of lights that are not rect: not supported yet");
+}
+
+}  // namespace
+}  // namespace pdsm::test
