@@ -105,7 +105,7 @@ TEST(Emission, APictureOfOneTexelChangesNoFunction) {
   add(scene, Plate{0.3, -kWide, kWide, kWide, kOccluder});
   add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
   const BakedFunctions plain(scene, light, small_options(33, 5, 64));
-  light.emission = picture(1, 1, {0.2F});
+  light.emission = picture(1, 1, {1});
   const BakedFunctions lit(scene, light, small_options(33, 5, 64));
   expect_same_level(plain, lit, 0);
   // What is told of the map is not the same, and so is its key.
@@ -115,9 +115,11 @@ TEST(Emission, APictureOfOneTexelChangesNoFunction) {
 TEST(Emission, OneSampleIsTheMiddleOfWhatIsEmitted) {
   Light light = rect_light(2, 1);
   light.emission = picture(4, 1, {0, 0, 0, 1});
-  const auto samples = make_light_samples(light, 1, PointSet::lattice, 0);
-  EXPECT_DOUBLE_EQ(samples[0].position[0], 0.75);
-  EXPECT_DOUBLE_EQ(samples[0].position[1], 0);
+  for (const PointSet points : {PointSet::lattice, PointSet::jittered}) {
+    const auto samples = make_light_samples(light, 1, points, 3);
+    EXPECT_DOUBLE_EQ(samples[0].position[0], 0.75);
+    EXPECT_DOUBLE_EQ(samples[0].position[1], 0);
+  }
 }
 
 TEST(Emission, ALineTakesItsPictureAlong) {
