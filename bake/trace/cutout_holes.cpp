@@ -14,10 +14,6 @@
 namespace pdsm {
 namespace {
 
-/// Points of a texel that are tried before the ray's own is taken. Of a triangle that fills a third of the
-/// texel, one is found 24 times in 25.
-constexpr std::uint32_t kTries = 8;
-
 /// A point of a triangle, by the weights of its second and third corner.
 using Weights = glm::dvec2;
 
@@ -56,11 +52,11 @@ std::uint64_t triangle_key(const MaskedTriangle& triangle) {
 }
 
 /// Two numbers from -1/2 to 1/2.
-glm::dvec2 random_offset(const CutoutRays& rays, unsigned lane, std::uint64_t triangle, std::uint32_t n) {
+glm::dvec2 random_offset(const CutoutRays& rays, unsigned lane, std::uint64_t triangle) {
   const std::array<std::uint64_t, 4> of{rays.sample_key, triangle,
                                         std::uint64_t{static_cast<std::uint32_t>(rays.lower_texel[0])} << 32 |
                                             static_cast<std::uint32_t>(rays.lower_texel[1]),
-                                        std::uint64_t{lane} << 32 | n};
+                                        lane};
   const std::uint64_t bits = XXH3_64bits(of.data(), sizeof of);
   return glm::dvec2(static_cast<double>(bits >> 32), static_cast<double>(bits & 0xffffffffU)) * 0x1p-32 - 0.5;
 }
@@ -99,16 +95,14 @@ bool narrow(const MaskedTriangle& triangle, const CutoutMask& mask, Footprint& t
 }
 
 /// The point of the surface that stands for all that a map texel sees of it: random, so that the mean over
-/// light samples is the share that is there. Numbers that are not finite are within no triangle.
+/// light samples is the share that is there. Where that is beside the triangle, it is the ray's own: then
+/// each point of the surface counts alike, up to the triangle's border. Numbers that are not finite are
+/// beside it.
 Weights point_in_texel(const MaskedTriangle& triangle, const Footprint& texel, const Weights& centre,
                        const CutoutRays& rays, unsigned lane) {
-  const std::uint64_t key = triangle_key(triangle);
-  for (std::uint32_t n = 0; n < kTries; ++n) {
-    const glm::dvec2 offset = random_offset(rays, lane, key, n);
-    const Weights w = centre + offset.x * texel[0] + offset.y * texel[1];
-    if (is_within(w)) return w;
-  }
-  return centre;
+  const glm::dvec2 offset = random_offset(rays, lane, triangle_key(triangle));
+  const Weights point = centre + offset.x * texel[0] + offset.y * texel[1];
+  return is_within(point) ? point : centre;
 }
 
 bool is_hole(const LightSpaceMesh& mesh, const CutoutRays& rays, const RTCFilterFunctionNArguments& args,
