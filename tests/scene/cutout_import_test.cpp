@@ -134,8 +134,6 @@ TEST_F(GltfCutout, WhatIsWholeHasNoMask) {
 TEST_F(GltfCutout, APalettesTransparency) {
   folder_.write("leaf.png", palette_png(2, 2, {2, 0, 1, 2}, {7, 130, 255}));
   EXPECT_EQ(import().mask->alpha, (Bytes{255, 7, 130, 255}));
-  // Entries that tRNS leaves out are opaque.
-  std::string shorter = palette_png(2, 2, {2, 0, 1, 2}, {7, 130, 255});
   EXPECT_TRUE(scene().warnings.empty());
 }
 
@@ -215,21 +213,14 @@ TEST_F(GltfCutout, TextureTransform) {
   expect_places({{5, 5}, {6, 5}, {5, 6}});
 }
 
-TEST_F(GltfCutout, PositionsWithTwoPlacesStayTwo) {
-  // Two triangles over the same corners: their places differ, so nothing is joined.
-  gltf_["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0;
-  const Mesh mesh = import();
-  EXPECT_EQ(mesh.positions.size(), mesh.mask_places.size());
-  Mesh doubled = mesh;
-  for (std::size_t n = 0; n < 3; ++n) {
-    doubled.positions.push_back(mesh.positions[n]);
-    doubled.mask_places.push_back(mesh.mask_places[n] + (n == 0 ? glm::vec2(1) : glm::vec2(0)));
-  }
-  doubled.triangles.push_back({3, 5, 4});
-  EXPECT_FALSE(is_closed(doubled));
-  doubled.mask = nullptr;
-  doubled.mask_places.clear();
-  EXPECT_TRUE(is_closed(doubled));
+TEST_F(GltfCutout, IsNeverClosed) {
+  // A triangle and its back.
+  Mesh mesh = import();
+  mesh.triangles.push_back({0, 2, 1});
+  EXPECT_FALSE(is_closed(mesh));
+  mesh.mask = nullptr;
+  mesh.mask_places.clear();
+  EXPECT_TRUE(is_closed(mesh));
 }
 
 TEST_F(GltfCutout, BrokenOrMissingPicturesAreRefused) {
@@ -305,6 +296,22 @@ TEST_F(ObjCutout, HasMaskAndPlaces) {
   EXPECT_EQ(mesh.mask->wrap, (std::array{MaskWrap::repeat, MaskWrap::repeat}));
   // Its v points up.
   EXPECT_EQ(mesh.mask_places, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0.25F, 0.25F}}));
+}
+
+TEST_F(ObjCutout, PositionsWithTwoPlacesStayTwo) {
+  set_material("map_d leaf.png\n");
+  folder_.write(
+      "a.obj",
+      "mtllib a.mtl\nusemtl leaf\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 5\n"
+      "f 1/1 2/2 3/3\nf 1/4 3/3 4/2\n");
+  const Mesh mesh = import();
+  ASSERT_EQ(mesh.positions.size(), 5U);
+  ASSERT_EQ(mesh.mask_places.size(), 5U);
+  EXPECT_EQ(mesh.triangles[0].z, mesh.triangles[1].y);
+  EXPECT_NE(mesh.triangles[0].x, mesh.triangles[1].x);
+  EXPECT_EQ(mesh.mask_places[mesh.triangles[1].x], glm::vec2(5, -4));
+  set_material("");
+  EXPECT_EQ(import().positions.size(), 4U);
 }
 
 TEST_F(ObjCutout, OptionsOfTheMap) {
