@@ -21,7 +21,8 @@ enum FactFlag : std::uint32_t {
   kIsProjected = 32,
   kShiftLaw = 64,
   kHasCutouts = 128,
-  kAllFlags = 255
+  kHasBlockKeys = 256,
+  kAllFlags = 511
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -29,7 +30,8 @@ std::uint32_t flags_of(const BakeFacts& facts) {
   return bit(facts.fitted.window_fitted, kWindowFitted) | bit(facts.fitted.near_fitted, kNearFitted) |
          bit(facts.fitted.far_fitted, kFarFitted) | bit(facts.fitted.nothing_casts, kNothingCasts) |
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
-         bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts);
+         bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
+         bit(facts.has_block_keys, kHasBlockKeys);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -41,6 +43,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.is_projected = (flags & kIsProjected) != 0;
   facts.shift_law = (flags & kShiftLaw) != 0;
   facts.has_cutouts = (flags & kHasCutouts) != 0;
+  facts.has_block_keys = (flags & kHasBlockKeys) != 0;
 }
 
 bool is_sound(const FactsRecord& record) {
