@@ -35,20 +35,31 @@ class CasterLists {
   void add(const LightSpaceMesh& mesh, const glm::uvec3& t) {
     const std::array<glm::vec3, 3> corners{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
     const BlockRange range = reach_.of({corners[0], corners[1], corners[2]});
-    if (range.empty()) return;
+    if (range.empty() || all_have_steep(range)) return;
     const auto hash = hash_caster(corners);
     const bool is_steep = steep_.may_hold(corners);
-    for (std::uint32_t y = range.y0; y < range.y1; ++y) {
-      for (std::uint32_t x = range.x0; x < range.x1; ++x) {
-        BlockCasters& list = lists_[std::size_t{y} * across_ + x];
-        list.casters.add(hash);
-        list.has_steep = list.has_steep || is_steep;
-      }
-    }
+    for_each_block(range, [&](BlockCasters& block) {
+      block.casters.add(hash);
+      block.has_steep = block.has_steep || is_steep;
+      return true;
+    });
   }
   [[nodiscard]] const std::vector<BlockCasters>& lists() const { return lists_; }
 
  private:
+  /// Calls visit for the blocks of a range until it returns false; tells whether it never did.
+  template <typename Visitor>
+  bool for_each_block(const BlockRange& range, Visitor&& visit) {
+    for (std::uint32_t y = range.y0; y < range.y1; ++y)
+      for (std::uint32_t x = range.x0; x < range.x1; ++x)
+        if (!visit(lists_[std::size_t{y} * across_ + x])) return false;
+    return true;
+  }
+  /// These blocks get no key, whatever else there is.
+  bool all_have_steep(const BlockRange& range) {
+    return for_each_block(range, [](const BlockCasters& block) { return block.has_steep; });
+  }
+
   const BlockReach& reach_;
   const SteepCasters& steep_;
   std::uint32_t across_;

@@ -26,15 +26,13 @@ bool SteepCasters::may_hold(const std::array<glm::vec3, 3>& triangle) const {
   if (std::isinf(from_)) return false;
   // The normal that maps are biased by, rounding and all.
   const glm::dvec3 normal(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+  const auto [least_x, most_x] = std::minmax({normal.x * light_.min[0], normal.x * light_.max[0]});
+  const auto [least_y, most_y] = std::minmax({normal.y * light_.min[1], normal.y * light_.max[1]});
   double least = std::numeric_limits<double>::infinity(), greatest = -least, depth = 0;
   for (const glm::vec3& corner : triangle) {
     const double at = glm::dot(normal, glm::dvec3(corner));
-    for (const double x : {light_.min[0], light_.max[0]}) {
-      for (const double y : {light_.min[1], light_.max[1]}) {
-        least = std::min(least, at - normal.x * x - normal.y * y);
-        greatest = std::max(greatest, at - normal.x * x - normal.y * y);
-      }
-    }
+    least = std::min(least, at - (most_x + most_y));
+    greatest = std::max(greatest, at - (least_x + least_y));
     depth = std::max(depth, static_cast<double>(corner.z));
   }
   const double facing = least > 0 ? least : greatest < 0 ? -greatest : 0;
