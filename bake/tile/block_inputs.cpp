@@ -35,12 +35,12 @@ class CasterLists {
   void add(const LightSpaceMesh& mesh, const glm::uvec3& t) {
     const std::array<glm::vec3, 3> corners{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
     const BlockRange range = reach_.of({corners[0], corners[1], corners[2]});
-    if (range.empty() || all_have_steep(range)) return;
+    if (range.empty() || all_are_traced(range)) return;
     const auto hash = hash_caster(corners);
-    const bool is_steep = steep_.may_hold(corners);
+    const bool is_traced = mesh.is_cutout_caster() || steep_.may_hold(corners);
     for_each_block(range, [&](BlockCasters& block) {
       block.casters.add(hash);
-      block.has_steep = block.has_steep || is_steep;
+      block.is_traced = block.is_traced || is_traced;
       return true;
     });
   }
@@ -56,8 +56,8 @@ class CasterLists {
     return true;
   }
   /// These blocks get no key, whatever else there is.
-  bool all_have_steep(const BlockRange& range) {
-    return for_each_block(range, [](const BlockCasters& block) { return block.has_steep; });
+  bool all_are_traced(const BlockRange& range) {
+    return for_each_block(range, [](const BlockCasters& block) { return block.is_traced; });
   }
 
   const BlockReach& reach_;

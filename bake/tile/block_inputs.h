@@ -15,12 +15,14 @@ namespace pdsm {
 /// The casters in reach of a block, or some of them.
 struct BlockCasters {
   ListHash casters;
-  bool has_steep = false;  ///< the slope of one may be limited (tile/steep_casters.h)
+  /// What one leaves in maps is found by rays: it has holes, or its slope may be limited
+  /// (tile/steep_casters.h).
+  bool is_traced = false;
 
   /// Appends those that come next in the scene.
   void append(const BlockCasters& next) {
     casters.append(next.casters);
-    has_steep = has_steep || next.has_steep;
+    is_traced = is_traced || next.is_traced;
   }
 };
 
@@ -37,7 +39,7 @@ class BlockInputs {
   BlockInputs(const BakeJob& job, const Light& light);
 
   /// Whether a block gets a key.
-  [[nodiscard]] bool can_tell(std::uint32_t block) const { return !casters_[block].has_steep; }
+  [[nodiscard]] bool can_tell(std::uint32_t block) const { return !casters_[block].is_traced; }
   /// BlockKey::inputs of a block whose domain ends and bands have been found: unknown where slopes in its
   /// reach may be limited, by rays. Any thread.
   [[nodiscard]] std::array<std::uint64_t, 2> key(const TileBlock& block) const;

@@ -11,6 +11,7 @@
 #include "support/bake_file.h"
 #include "support/baked_functions.h"
 #include "support/checkpoint_case.h"
+#include "support/cutouts.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -47,6 +48,10 @@ Pieces random_pieces(Random& random) {
   for (std::uint32_t n = random.count(1, 12); n > 0; --n)
     pieces.push_back(
         {random_leaf(random), random.pick({Roles::both, Roles::both, Roles::caster, Roles::receiver})});
+  if (random.chance(0.2)) {
+    const double x = random.uniform(-3, 2), y = random.uniform(-3, 2);
+    pieces.push_back({cut_plate({x, y, x + 0.7, y + 0.5, random.uniform(3, 7)}, leaf_mask()), Roles::both});
+  }
   // Steep sides right before the floor.
   if (random.chance(0.3)) {
     const double x = random.uniform(-4, 3), y = random.uniform(-4, 3);
@@ -265,6 +270,18 @@ TEST_F(FourByFour, WhatIsTracedHasNoKeys) {
   BakeOptions without = options();
   without.block_keys = false;
   EXPECT_TRUE(bake(plates, light(1), without).map.block_keys.empty());
+}
+
+/// The leaf is seen as with_plate() has it, and through it rays are traced: block (2, 2) has all of its
+/// shadow.
+TEST_F(FourByFour, CutoutsLoseTheBlocksInTheirReachAlone) {
+  Pieces from = with_plate(-0.75, -0.75), to = with_plate(-0.74, -0.75);
+  for (Pieces* pieces : {&from, &to})
+    pieces->push_back({cut_plate({0.8, 0.8, 1.2, 1.2, 4}, leaf_mask()), Roles::caster});
+  const BakedMap baked = bake(scene_of(from), light(1), options());
+  ASSERT_EQ(baked.map.block_keys.size(), 16U);
+  for (std::size_t b = 0; b < 16; ++b) EXPECT_EQ(baked.map.block_keys[b].is_known(), b != 10) << b;
+  EXPECT_EQ(taken_over(from, to, light(1)), 14U);
 }
 
 /// Under a light 1 wide the box is seen and darkens from 1.2 / 7.9 - 0.02 to 2.4 / 6 + 0.02 tangents: in
