@@ -5,6 +5,8 @@
 
 #include <limits>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "support/random.h"

@@ -54,6 +54,19 @@ class Repeatable : public testing::TestWithParam<Grid> {
   BakedFunctions first_{mixed_scene(), key_light(), options_for(GetParam())};
 };
 
+/// What the metadata tell that was saved.
+TEST_P(Repeatable, SavesTheSameInAnyTiles) {
+  for (const std::uint32_t tile : {64u, 128u}) {
+    SCOPED_TRACE(tile);
+    BakeOptions options = options_for(GetParam());
+    options.tile = tile;
+    const BakedFunctions other(mixed_scene(), key_light(), options);
+    const auto &a = first_.report().modelled, &b = other.report().modelled;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t n = 0; n < a.size(); ++n) EXPECT_EQ(a[n].saved, b[n].saved) << a[n].feature;
+  }
+}
+
 TEST_P(Repeatable, ForAnyNumberOfThreads) {
   EXPECT_GT(first_.vertex_count(), 1000u);
   for (const std::uint32_t threads : {1u, 2u, 3u, 8u}) {
