@@ -54,19 +54,6 @@ class Repeatable : public testing::TestWithParam<Grid> {
   BakedFunctions first_{mixed_scene(), key_light(), options_for(GetParam())};
 };
 
-/// What the metadata tell that was saved.
-TEST_P(Repeatable, SavesTheSameInAnyTiles) {
-  for (const std::uint32_t tile : {64u, 128u}) {
-    SCOPED_TRACE(tile);
-    BakeOptions options = options_for(GetParam());
-    options.tile = tile;
-    const BakedFunctions other(mixed_scene(), key_light(), options);
-    const auto &a = first_.report().modelled, &b = other.report().modelled;
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t n = 0; n < a.size(); ++n) EXPECT_EQ(a[n].saved, b[n].saved) << a[n].feature;
-  }
-}
-
 TEST_P(Repeatable, ForAnyNumberOfThreads) {
   EXPECT_GT(first_.vertex_count(), 1000u);
   for (const std::uint32_t threads : {1u, 2u, 3u, 8u}) {
@@ -171,6 +158,23 @@ TEST(RepeatableTilted, ForAnyThreadsTileAndOrder) {
 INSTANTIATE_TEST_SUITE_P(EveryGrid, Repeatable, testing::ValuesIn(kGrids), [](const auto& grid) {
   return "Maps" + std::to_string(grid.param.map_width) + "x" + std::to_string(grid.param.map_height);
 });
+
+/// What the metadata tell that was saved. A slanted floor darkens no ray, as all end on it: that is found out
+/// for casters over many cells, and the last block has two.
+TEST(RepeatableCounts, TilesSaveTheSame) {
+  Scene scene;
+  add(scene, quad_mesh({-9, -9, 6}, {9, -9, 9}, {9, 9, 9}, {-9, 9, 6}));
+  add(scene, Plate{-1.5, -1.2, -1, -0.8, 4});
+  BakeOptions options = options_for(kGrids[0]);
+  std::vector<ModelledFeature> of_tiles[2];
+  for (const std::uint32_t tile : {64u, 192u}) {
+    options.tile = tile;
+    of_tiles[tile / 192] = BakedFunctions(scene, key_light(), options).report().modelled;
+  }
+  ASSERT_EQ(of_tiles[0].size(), of_tiles[1].size());
+  for (std::size_t n = 0; n < of_tiles[0].size(); ++n)
+    EXPECT_EQ(of_tiles[0][n].saved, of_tiles[1][n].saved) << of_tiles[0][n].feature;
+}
 
 }  // namespace
 }  // namespace pdsm::test
