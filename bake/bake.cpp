@@ -8,10 +8,13 @@
 #include "events/event_log.h"
 #include "part/checkpoint_log.h"
 #include "part/logged_blocks.h"
+#include "part/previous_blocks.h"
 #include "pdsm/bake/stream.h"
 #include "tile/bake_blocks.h"
 #include "tile/bake_facts.h"
 #include "tile/bake_job.h"
+#include "tile/block_inputs.h"
+#include "tile/block_key.h"
 #include "tile/map_blocks.h"
 #include "tile/setup_key.h"
 #include "tile/tile_run.h"
@@ -21,6 +24,35 @@ namespace {
 
 /// Samples of a prediction's trial.
 constexpr std::uint32_t kTrialSamples = 4;
+
+/// Puts a map together from its blocks, and their keys where these are asked for.
+class MapTaker {
+ public:
+  MapTaker(const BakeFacts& facts, std::span<const FunctionImage> images, const BakeStream& stream)
+      : is_kept_(!stream.take),
+        keys_(facts.has_block_keys ? std::size_t{images.front().blocks_across()} * images.front().blocks_up()
+                                   : 0),
+        blocks_(facts.coding, images, stream.take) {}
+
+  void take(FittedBlock&& block) {
+    keys_.take(block);
+    blocks_.take(std::move(block));
+  }
+  void take(FittedBlock&& block, EncodedBlock&& base) {
+    keys_.take(block);
+    blocks_.take(std::move(block), std::move(base));
+  }
+  /// Once all blocks are there.
+  void release(BakedMap& baked) {
+    baked.map.block_keys = keys_.release();
+    if (is_kept_) baked.blocks = blocks_.release();
+  }
+
+ private:
+  bool is_kept_;
+  BlockKeyList keys_;
+  MapBlocks blocks_;
+};
 
 }  // namespace
 
@@ -44,22 +76,22 @@ BakedMap bake_streamed(const Scene& scene, const Light& light, const BakeOptions
     baked.report.key = key;
     stream.begin(baked);
   }
-  MapBlocks blocks(facts.coding, baked.map.images, stream.take);
-  const TileInput input = job.tile_input();
+  const auto inputs = find_block_inputs(job, light);
+  TileInput input = job.tile_input();
+  input.block_inputs = inputs.get();
+  MapTaker taker(facts, baked.map.images, stream);
   CheckpointLog* log = checkpoint != nullptr ? &checkpoint->log() : nullptr;
-  TileRunOutput output =
-      logged_output(job, callbacks, log, [&blocks](FittedBlock&& block, EncodedBlock&& base) {
-        blocks.take(std::move(block), std::move(base));
-      });
-  TileRun run(job, input, std::move(output));
+  TileRun run(job, input, logged_output(job, callbacks, log, [&](FittedBlock&& block, EncodedBlock&& base) {
+                taker.take(std::move(block), std::move(base));
+              }));
+  const auto take_whole = [&taker](FittedBlock&& block) { taker.take(std::move(block)); };
   TileStatistics taken;
-  if (log != nullptr) {
-    taken = take_over(*log, {identity_of(key)}, job, run,
-                      [&blocks](FittedBlock&& block) { blocks.take(std::move(block)); });
-  }
+  if (log != nullptr) taken = take_over(*log, {identity_of(key)}, job, input, run, take_whole);
+  const std::uint64_t blocks_taken_over =
+      inputs != nullptr ? take_over_previous(job, input, run, take_whole) : 0;
   run.run();
   taken.add(run.statistics());
-  if (!stream.take) baked.blocks = blocks.release();
+  taker.release(baked);
   baked.report = make_report(facts, run.counts(), taken);
   baked.report.key = key;
   add_seconds(taken, job.options.threads, baked.report);
@@ -67,6 +99,7 @@ BakedMap bake_streamed(const Scene& scene, const Light& light, const BakeOptions
   baked.report.resident_after_bvh = job.resident_after_bvh;
   baked.report.tiles = run.tiles();
   baked.report.tile = job.plan.edge;
+  baked.report.blocks_taken_over = blocks_taken_over;
   baked.report.seconds_total = omp_get_wtime() - start;
   return baked;
 }

@@ -63,8 +63,8 @@ class Search {
   }
 
  private:
-  Trial small_trial(const std::string& purpose, const Settings& settings, bool with_sampling = false) {
-    record_.note(run_(purpose, settings, trial_measure(options_), with_sampling).trial);
+  Trial small_trial(const std::string& purpose, const Settings& settings, TrialAim aim = TrialAim::laws) {
+    record_.note(run_(purpose, settings, trial_measure(options_), aim).trial);
     return record_.trials().back();
   }
   [[nodiscard]] Settings base() const {
@@ -72,7 +72,7 @@ class Search {
   }
 
   void learn() {
-    const Trial base = small_trial("trial", this->base(), true);
+    const Trial base = small_trial("trial", this->base(), TrialAim::sampling);
     if (goals_.time_budget && kStarTimes * base.seconds() > kStarShare * *goals_.time_budget) {
       laws_.emplace(base);
       return;
@@ -164,8 +164,8 @@ class Search {
     bake.expected_seconds = laws_->seconds(settings);
     bake.why = describe(settings);
     const bool baked = within_memory(settings, [&] {
-      TrialBake result =
-          run_(fmt::format("try {}", record_.tries().size() + 1), settings, bake.measured_by, false);
+      TrialBake result = run_(fmt::format("try {}", record_.tries().size() + 1), settings, bake.measured_by,
+                              TrialAim::result);
       bake.baked = std::move(result.baked);
       bake.chosen = std::move(result.trial);
     });

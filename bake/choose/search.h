@@ -33,7 +33,7 @@ struct SearchTask {
 
 /// Bakes a light with settings, and measures it.
 using RunTrial = std::function<TrialBake(const std::string& purpose, const Settings& settings,
-                                         const VerifyOptions& measure, bool with_sampling)>;
+                                         const VerifyOptions& measure, TrialAim aim)>;
 
 /// What choose_bake() does, with any way to bake.
 [[nodiscard]] ChosenBake search(const SearchTask& task, const RunTrial& run);

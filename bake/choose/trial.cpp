@@ -53,19 +53,21 @@ TrialBench::TrialBench(const Scene& scene, const Light& light, BakeOptions optio
     : scene_(scene), light_(light), options_(std::move(options)), callbacks_(std::move(callbacks)) {}
 
 TrialBake TrialBench::run(const std::string& purpose, const Settings& settings, const VerifyOptions& options,
-                          bool with_sampling) const {
+                          TrialAim aim) const {
   if (callbacks_.begin) callbacks_.begin(purpose + ": " + settings_text(settings));
   StopWatch watch;
   TrialBake result;
   Trial& trial = result.trial;
   trial.purpose = purpose;
   trial.settings = settings;
-  result.baked = bake(scene_, light_, with_settings(options_, settings), callbacks_.bake);
+  BakeOptions to_bake = with_settings(options_, settings);
+  to_bake.block_keys = aim == TrialAim::result;
+  result.baked = bake(scene_, light_, to_bake, callbacks_.bake);
   count_bytes(result.baked, trial);
   trial.seconds_bake = watch.lap();
 
   if (callbacks_.bake.progress) callbacks_.bake.progress({"measure", 1, 0});
-  measure(result.baked, options, with_sampling, trial);
+  measure(result.baked, options, aim == TrialAim::sampling, trial);
   trial.seconds_measure = watch.lap();
   if (callbacks_.bake.cancelled && callbacks_.bake.cancelled()) {
     throw Error(Failure::interrupted, "bake", "interrupted");

@@ -30,6 +30,13 @@ struct Trial {
   [[nodiscard]] double seconds() const { return seconds_bake + seconds_measure; }
 };
 
+/// What a trial is for.
+enum class TrialAim {
+  laws,      ///< to learn what settings do
+  sampling,  ///< the same, and Trial::sampling_error
+  result     ///< its map may be kept: it gets all that a map has
+};
+
 struct TrialBake {
   Trial trial;
   BakedMap baked;
@@ -46,9 +53,9 @@ class TrialBench {
   /// Borrows `scene` and `light`. Trials take everything but the settings from `options`.
   TrialBench(const Scene& scene, const Light& light, BakeOptions options, TrialCallbacks callbacks);
 
-  /// Throws as bake() does. `with_sampling` measures Trial::sampling_error too.
+  /// Throws as bake() does.
   [[nodiscard]] TrialBake run(const std::string& purpose, const Settings& settings,
-                              const VerifyOptions& measure, bool with_sampling = false) const;
+                              const VerifyOptions& measure, TrialAim aim) const;
 
  private:
   void measure(const BakedMap& baked, const VerifyOptions& options, bool with_sampling, Trial& trial) const;

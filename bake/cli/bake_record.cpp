@@ -117,6 +117,8 @@ nlohmann::ordered_json bake_report(const BakeOptions& options, const BakedMap& b
   json["events"] = report.events;
   json["texels"] = report.texels;
   json["pieces"] = report.pieces;
+  json["blocks"] = report.blocks;
+  json["blocks_taken_over"] = report.blocks_taken_over;
   json["bytes"] = {{"file", costs.file_bytes},
                    {"gpu", texture_bytes(baked)},
                    {"peak_memory", peak_memory()},

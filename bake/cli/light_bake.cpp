@@ -44,7 +44,10 @@ BakedMap bake_polled(const LightBakeInput& input, const MapJob& job, Checkpoint*
   BakeCallbacks callbacks;
   callbacks.progress = [&line](const BakeProgress& progress) { line.show(progress); };
   callbacks.cancelled = [] { return PolledInterrupts::interrupted(); };
-  BakedMap baked = bake(input.scene, *job.light, job.options, callbacks, checkpoint);
+  BakeOptions options = job.options;
+  options.block_keys = true;
+  if (!input.command.force) options.previous = job.output;
+  BakedMap baked = bake(input.scene, *job.light, options, callbacks, checkpoint);
   if (PolledInterrupts::interrupted()) throw Error(Failure::interrupted, "", "interrupted");
   return baked;
 }
@@ -76,6 +79,8 @@ void write_baked(const LightBakeInput& input, const MapJob& job, BakedMap& baked
   outcome.bytes = costs.file_bytes;
   outcome.rays = baked.report.rays;
   outcome.pieces = baked.report.pieces;
+  outcome.blocks = baked.report.blocks;
+  outcome.blocks_taken_over = baked.report.blocks_taken_over;
   outcome.view = baked.fitted.view;
   if (input.command.verify) measure(input, job, decode_blocks(baked), outcome);
 }

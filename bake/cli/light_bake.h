@@ -22,9 +22,10 @@ struct LightOutcome {
   std::string key;
   double seconds = 0;
   std::uint64_t bytes = 0, rays = 0, pieces = 0;
-  std::optional<View> view;           ///< of the map
-  std::optional<VerifyResult> error;  ///< with --verify
-  nlohmann::ordered_json report;      ///< for --report
+  std::uint64_t blocks = 0, blocks_taken_over = 0;  ///< of level 0; from the map of before
+  std::optional<View> view;                         ///< of the map
+  std::optional<VerifyResult> error;                ///< with --verify
+  nlohmann::ordered_json report;                    ///< for --report
 };
 
 [[nodiscard]] const char* status_name(LightOutcome::Status status);

@@ -36,7 +36,8 @@ void check_shard(const BakeCommand& command) {
 void run_shard_bake(const BakeCommand& command, const Scene& scene) {
   const Light& light = choose_light(scene, command.light);
   check_output(command.output, scene_inputs(command.scene));
-  const BakeOptions options = options_for(command, light);
+  BakeOptions options = options_for(command, light);
+  options.block_keys = true;
   const std::unique_ptr<Checkpoint> checkpoint =
       make_checkpoint(command.checkpoint, command.output, command.quiet);
   {

@@ -10,10 +10,12 @@
 #include "part/facts_record.h"
 #include "part/logged_blocks.h"
 #include "part/part_layout.h"
+#include "part/previous_blocks.h"
 #include "pdsm/bake/shard.h"
 #include "pdsm/format/atomic_file.h"
 #include "pdsm/format/error.h"
 #include "tile/block_grid.h"
+#include "tile/block_inputs.h"
 #include "tile/setup_key.h"
 
 namespace pdsm {
@@ -88,14 +90,17 @@ std::uint64_t bake_shard(const Scene& scene, const Light& light, const BakeOptio
   append_part_header(header, front);
   append_record(kBakeRecord, encode_facts(describe_job(job, key, describe)), front);
   ShardBlocks blocks(job);
-  const TileInput input = job.tile_input();
+  const auto inputs = find_block_inputs(job, light);
+  TileInput input = job.tile_input();
+  input.block_inputs = inputs.get();
   CheckpointLog* log = checkpoint != nullptr ? &checkpoint->log() : nullptr;
   TileRun run(job, input, logged_output(job, callbacks, log, [&](FittedBlock&& block, EncodedBlock&& base) {
                 blocks.take(block, base);
               }));
   TileStatistics taken;
-  if (log != nullptr)
-    taken = take_over(*log, header, job, run, [&](FittedBlock&& block) { blocks.take(block); });
+  const auto take_whole = [&](FittedBlock&& block) { blocks.take(block); };
+  if (log != nullptr) taken = take_over(*log, header, job, input, run, take_whole);
+  if (inputs) take_over_previous(job, input, run, take_whole);
   run.run();
   taken.add(run.statistics());
   const auto is_there = [](const auto& record) { return !record.empty(); };

@@ -22,7 +22,8 @@ enum FactFlag : std::uint32_t {
   kShiftLaw = 64,
   kHasCutouts = 128,
   kHasEmission = 256,
-  kAllFlags = 511
+  kHasBlockKeys = 512,
+  kAllFlags = 1023
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -31,7 +32,7 @@ std::uint32_t flags_of(const BakeFacts& facts) {
          bit(facts.fitted.far_fitted, kFarFitted) | bit(facts.fitted.nothing_casts, kNothingCasts) |
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
          bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
-         bit(facts.has_emission, kHasEmission);
+         bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -44,6 +45,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.shift_law = (flags & kShiftLaw) != 0;
   facts.has_cutouts = (flags & kHasCutouts) != 0;
   facts.has_emission = (flags & kHasEmission) != 0;
+  facts.has_block_keys = (flags & kHasBlockKeys) != 0;
 }
 
 bool is_sound(const FactsRecord& record) {

@@ -6,6 +6,7 @@
 
 #include "part/part_layout.h"
 #include "tile/block_grid.h"
+#include "tile/block_inputs.h"
 #include "tile/parallel_failure.h"
 
 namespace pdsm {
@@ -30,8 +31,18 @@ TileRunOutput logged_output(const BakeJob& job, const BakeCallbacks& callbacks, 
   return output;
 }
 
-TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job, TileRun& run,
-                         const BlockSink& sink) {
+namespace {
+
+/// Whether a block is of a bake that was not asked for keys, where this one is.
+bool lacks_key(const TileInput& input, const FittedBlock& block) {
+  return input.block_inputs != nullptr && input.block_inputs->can_tell(block.index) &&
+         block.inputs == FittedBlock().inputs;
+}
+
+}  // namespace
+
+TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job,
+                         const TileInput& input, TileRun& run, const BlockSink& sink) {
   const std::vector<PartRecord> records = log.begin(header);
   const PartShape shape = part_shape(job);
   std::vector<bool> is_there(block_count(job.grid));
@@ -42,7 +53,7 @@ TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const Bak
     failure.guard([&] {
       if (records[n].type != kBlockRecord) return;
       auto block = read_block(shape, records[n].payload);
-      if (!block) return;
+      if (!block || lacks_key(input, *block)) return;
       {
         const std::lock_guard guard(mutex);
         if (is_there[block->index]) return;

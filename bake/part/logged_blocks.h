@@ -20,9 +20,9 @@ using EncodedSink = std::function<void(FittedBlock&& block, EncodedBlock&& base)
 [[nodiscard]] TileRunOutput logged_output(const BakeJob& job, const BakeCallbacks& callbacks,
                                           CheckpointLog* log, EncodedSink sink);
 
-/// Begins `log`. The blocks that it has already go to `sink`, and `run` leaves them out. Returns what they
-/// took.
+/// Begins `log`. The blocks that it has already go to `sink`, and `run` leaves them out; where `input` asks
+/// for keys, those without are baked again. Returns what they took.
 [[nodiscard]] TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job,
-                                       TileRun& run, const BlockSink& sink);
+                                       const TileInput& input, TileRun& run, const BlockSink& sink);
 
 }  // namespace pdsm

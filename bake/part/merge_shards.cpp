@@ -9,6 +9,7 @@
 
 #include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
+#include "tile/block_key.h"
 #include "tile/map_blocks.h"
 #include "tile/parallel_failure.h"
 
@@ -77,6 +78,7 @@ class BlockMerge {
                facts.receivers != Receivers::all},
         limits_(limits),
         is_there_(block_count(frame)),
+        keys_(facts.has_block_keys ? block_count(frame) : 0),
         blocks_(facts.coding, frame.images) {}
 
   void take(const NamedShard& shard, std::uint32_t threads) {
@@ -89,6 +91,9 @@ class BlockMerge {
   }
   [[nodiscard]] const BlockCounts& counts() const {
     return counts_;
+  }
+  [[nodiscard]] std::vector<BlockKey> release_keys() {
+    return keys_.release();
   }
   [[nodiscard]] std::vector<std::vector<EncodedBlock>> release() {
     return blocks_.release();
@@ -104,12 +109,14 @@ class BlockMerge {
       is_there_[block->index] = true;
       counts_.add(block->counts);
     }
+    keys_.take(*block);
     blocks_.take(std::move(*block));
   }
 
   PartShape shape_;
   ReadLimits limits_;
   std::vector<bool> is_there_;
+  BlockKeyList keys_;
   BlockCounts counts_;
   std::mutex mutex_;  ///< of both
   MapBlocks blocks_;
@@ -149,6 +156,7 @@ BakedMap merge_contents(std::span<const NamedShard> shards, std::uint32_t thread
   merged.map.metadata = std::move(described.description);
   BlockMerge merge(described.facts, merged.map, limits);
   for (const NamedShard& shard : shards) merge.take(shard, threads);
+  merged.map.block_keys = merge.release_keys();
   merged.blocks = merge.release();
   merged.report = merged_report(described.facts, merge.counts(), shards);
   return merged;

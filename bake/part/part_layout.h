@@ -10,7 +10,7 @@ namespace pdsm {
 
 inline constexpr std::array<unsigned char, 12> kPartMagic{0xAB, 'P',  'D',  'S',  'M',  'p',
                                                           '1',  0xBB, '\r', '\n', 0x1A, '\n'};
-inline constexpr std::uint32_t kPartVersion = 1;
+inline constexpr std::uint32_t kPartVersion = 2;
 
 /// Bytes that a record may claim; more is no record.
 inline constexpr std::uint64_t kMostRecordBytes = std::uint64_t{4} << 30;
@@ -44,8 +44,9 @@ static_assert(sizeof(RecordHeader) == 24 && offsetof(RecordHeader, checksum) == 
 struct BlockHeaderRecord {
   std::uint32_t index = 0, levels = 0;
   std::uint64_t events = 0, undarkened_texels = 0;
+  std::array<std::uint64_t, 2> inputs{};  ///< as BlockKey has them; 0, 0 where they were not asked for
 };
-static_assert(sizeof(BlockHeaderRecord) == 24);
+static_assert(sizeof(BlockHeaderRecord) == 40);
 
 struct BlockLevelHeader {
   std::uint32_t encoding = 0, reserved = 0;

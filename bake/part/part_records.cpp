@@ -59,13 +59,6 @@ std::optional<FunctionBlock> read_level(const PartShape& shape, std::uint32_t wi
   }
 }
 
-void count_functions(FittedBlock& block) {
-  const std::vector<std::uint32_t>& first = block.levels.front().first;
-  block.counts.pieces = first.back();
-  for (std::size_t t = 1; t < first.size(); ++t)
-    block.counts.empty_texels += first[t] == first[t - 1] ? 1 : 0;
-}
-
 }  // namespace
 
 std::uint64_t identity_of(const std::string& key) {
@@ -96,7 +89,7 @@ void append_block(const VertexCoding& coding, const FittedBlock& block, const En
                   std::vector<std::byte>& bytes) {
   std::vector<std::byte> payload;
   append_value(payload, BlockHeaderRecord{block.index, static_cast<std::uint32_t>(block.levels.size()),
-                                          block.counts.events, block.counts.undarkened_texels});
+                                          block.counts.events, block.counts.undarkened_texels, block.inputs});
   append_level(base, payload);
   for (std::uint32_t l = 1; l < block.levels.size(); ++l) {
     const std::uint32_t width = block.width >> l, height = block.height >> l;
@@ -146,6 +139,7 @@ std::optional<FittedBlock> read_block(const PartShape& shape, std::span<const st
   block.height = extent[1];
   block.counts.events = header.events;
   block.counts.undarkened_texels = header.undarkened_texels;
+  block.inputs = header.inputs;
   if (block.counts.undarkened_texels > std::uint64_t{block.width} * block.height) return {};
   for (std::uint32_t l = 0; l < header.levels; ++l) {
     FunctionBlock& level = block.levels.emplace_back();
@@ -157,6 +151,13 @@ std::optional<FittedBlock> read_block(const PartShape& shape, std::span<const st
   if (reader.remaining() != 0) return {};
   count_functions(block);
   return block;
+}
+
+void count_functions(FittedBlock& block) {
+  const std::vector<std::uint32_t>& first = block.levels.front().first;
+  block.counts.pieces = first.back();
+  for (std::size_t t = 1; t < first.size(); ++t)
+    block.counts.empty_texels += first[t] == first[t - 1] ? 1 : 0;
 }
 
 std::optional<TileStatistics> read_tile(std::span<const std::byte> payload) {

@@ -66,6 +66,8 @@ void append_tile(const TileStatistics& tile, std::vector<std::byte>& bytes);
 [[nodiscard]] std::optional<FittedBlock> read_block(const PartShape& shape,
                                                     std::span<const std::byte> payload,
                                                     const ReadLimits& limits = {});
+/// Counts what can be counted from the functions of a block: pieces and empty texels.
+void count_functions(FittedBlock& block);
 /// The statistics of a TILE record; nothing where it has another size or numbers that none can have.
 [[nodiscard]] std::optional<TileStatistics> read_tile(std::span<const std::byte> payload);
 

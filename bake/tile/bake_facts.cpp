@@ -3,10 +3,15 @@
 
 #include <cmath>
 
+#include "tile/block_inputs.h"
 #include "tile/modelled_features.h"
 
 namespace pdsm {
 namespace {
+
+std::uint64_t count_blocks(const View& view) {
+  return std::uint64_t{blocks_along(view.width)} * blocks_along(view.height);
+}
 
 std::uint32_t map_texels(const MapGrid& grid, std::size_t axis) {
   return static_cast<std::uint32_t>(std::lround(grid.texels[axis] * grid.ratio[axis].maps_per_texel()));
@@ -34,6 +39,7 @@ BakeFacts gather_facts(const BakeJob& job) {
   facts.shift_law = job.shift_law();
   facts.has_emission = job.has_emission;
   facts.has_cutouts = job.light_space.has_cutouts();
+  facts.has_block_keys = job.options.block_keys && BlockInputs::are_known(job);
   facts.slope_limit_from = job.slope_limit.from;
   facts.dropped_triangles = job.light_space.dropped_triangles;
   return facts;
@@ -61,6 +67,7 @@ BakeReport make_report(const BakeFacts& facts, const BlockCounts& done, const Ti
   report.pieces = done.pieces;
   report.empty_texels = done.empty_texels;
   report.mip_levels = facts.mip_levels;
+  report.blocks = count_blocks(facts.fitted.view);
   report.peak_event_bytes = taken.event_bytes;
   report.map_width = facts.map_width;
   report.map_height = facts.map_height;

@@ -15,6 +15,8 @@
 
 namespace pdsm {
 
+class BlockInputs;
+
 /// All that a tile depends on; the same for all tiles of a bake.
 struct TileInput {
   const EmbreeScene& scene;
@@ -31,7 +33,8 @@ struct TileInput {
   double clip_depth = 0;           ///< casters before this depth are out of the hull of light and window
   double depth_rounding = 0;       ///< metres: what traced depths may be off
   const CasterTriangles& casters;  ///< that maps are made from; none: they are traced
-  std::vector<FitRules> level_rules = {};  ///< of mip levels 1, 2, ...; none where none are made
+  std::vector<FitRules> level_rules = {};     ///< of mip levels 1, 2, ...; none where none are made
+  const BlockInputs* block_inputs = nullptr;  ///< for the keys of blocks; null: they get none
 };
 
 /// What a tile did; sums over its threads.

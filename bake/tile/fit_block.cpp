@@ -51,6 +51,7 @@ class BlockFit {
     const double start = omp_get_wtime();
     FittedBlock fitted;
     fitted.index = block_.index;
+    fitted.inputs = block_.inputs;
     fitted.width = static_cast<std::uint32_t>(block_.rect.x1 - block_.rect.x0);
     fitted.height = static_cast<std::uint32_t>(block_.rect.y1 - block_.rect.y0);
     gather_events(logs, fitted.width * fitted.height, thread_.events);

@@ -2,57 +2,14 @@
 #include "tile/setup_key.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
-#include <memory>
-#include <new>
 #include <span>
-#include <type_traits>
 
 namespace pdsm {
 namespace {
 
 /// To be raised when the same inputs give other bytes, and neither tool version nor file format tells.
-constexpr std::uint32_t kBytesRevision = 1;
-
-/// XXH3-128 over values. Lists are preceded by their length, so that no two inputs run into the same bytes.
-class KeyHash {
- public:
-  KeyHash() : state_(XXH3_createState()) {
-    if (!state_) throw std::bad_alloc();
-    XXH3_128bits_reset(state_.get());
-  }
-
-  template <typename T>
-  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void add(T value) { add_bytes(&value, sizeof value); }
-  void add(const std::string& text) { add(std::span(text)); }
-  /// Of types without padding.
-  template <typename T, std::size_t extent>
-  void add(std::span<T, extent> values) {
-    add(std::uint64_t{values.size()});
-    add_bytes(values.data(), values.size_bytes());
-  }
-  template <typename T>
-  void add(const std::optional<T>& value) {
-    add(value.has_value());
-    if (value) add(*value);
-  }
-
-  [[nodiscard]] std::string digest() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-  }
-
- private:
-  struct Free {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-  };
-
-  void add_bytes(const void* data, std::size_t size) { XXH3_128bits_update(state_.get(), data, size); }
-
-  std::unique_ptr<XXH3_state_t, Free> state_;
-};
+constexpr std::uint32_t kBytesRevision = 2;
 
 /// What marks that the light has a picture: no light without one runs into the same bytes.
 constexpr std::uint64_t kPictureFollows = 0x65727574636970U;
@@ -141,9 +98,8 @@ void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
 
 }  // namespace
 
-std::string setup_key(const BakeSetup& setup, const Light& light, const std::string& isa,
-                      const std::string& version) {
-  KeyHash hash;
+void add_setup(KeyHash& hash, const BakeSetup& setup, const Light& light, const std::string& isa,
+               const std::string& version) {
   hash.add(kBytesRevision);
   hash.add(kFormatMajor);
   hash.add(kFormatMinor);
@@ -153,8 +109,15 @@ std::string setup_key(const BakeSetup& setup, const Light& light, const std::str
   add_view(hash, setup.fitted);
   add_options(hash, setup);
   add_samples(hash, setup.samples);
+}
+
+std::string setup_key(const BakeSetup& setup, const Light& light, const std::string& isa,
+                      const std::string& version) {
+  KeyHash hash;
+  add_setup(hash, setup, light, isa, version);
   add_scene(hash, setup.light_space);
-  return hash.digest();
+  const auto [high, low] = hash.digest();
+  return fmt::format("{:016x}{:016x}", high, low);
 }
 
 }  // namespace pdsm

@@ -61,12 +61,9 @@ ClippedTriangle clip_front(const LightSpaceMesh& mesh, const glm::uvec3& t, doub
   return result;
 }
 
-/// Cells, half-open.
+/// Cells of a tile, half-open, of a range that takes `of_map` cells of the whole map.
 struct CellRange {
-  std::int64_t x0, y0, x1, y1;
-  [[nodiscard]] std::int64_t count() const {
-    return std::max<std::int64_t>(0, x1 - x0) * std::max<std::int64_t>(0, y1 - y0);
-  }
+  std::int64_t x0, y0, x1, y1, of_map;
 };
 
 class CellMarker {
@@ -174,7 +171,8 @@ class CellMarker {
     double first_depth = std::numeric_limits<double>::infinity();
     for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
     const CellRange range = find_range(triangle.corners(), first_depth);
-    const bool are_many = range.count() >= kManyCells;
+    // Not those of the tile, for a verdict must not depend on it.
+    const bool are_many = range.of_map >= kManyCells;
     for (std::int64_t y = range.y0; y < range.y1; ++y) {
       for (std::int64_t x = range.x0; x < range.x1; ++x) {
         const auto cell = static_cast<std::size_t>(y * cells_.across + x);
@@ -209,7 +207,7 @@ class CellMarker {
   /// Cells that the hull of `corners` may darken.
   [[nodiscard]] CellRange find_range(std::span<const glm::dvec3> corners, double first_depth) const {
     const Spread spread = spread_from(first_depth);
-    std::int64_t low[2], high[2];
+    std::int64_t low[2], high[2], of_map = 1;
     const std::int32_t start[2] = {cells_.tile.x0, cells_.tile.y0}, cells[2] = {cells_.across, cells_.up};
     for (int a = 0; a < 2; ++a) {
       double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -224,10 +222,14 @@ class CellMarker {
                    pitch = grid.pitch[axis] * grid.ratio[axis].maps_per_texel();
       least += spread.least[axis] - pad;
       greatest += spread.greatest[axis] + pad;
-      low[a] = to_cell((least - grid.origin[axis]) / pitch, start[a], cells[a]);
-      high[a] = to_cell((greatest - grid.origin[axis]) / pitch, start[a], cells[a] - 1) + 1;
+      const double first = (least - grid.origin[axis]) / pitch, last = (greatest - grid.origin[axis]) / pitch;
+      low[a] = std::max<std::int64_t>(to_cell(first, start[a], cells[a]), 0);
+      high[a] = to_cell(last, start[a], cells[a] - 1) + 1;
+      const auto across = static_cast<std::int32_t>((grid.texels[axis] + kCellSize - 1) / kCellSize);
+      of_map *= std::max<std::int64_t>(
+          to_cell(last, 0, across - 1) + 1 - std::max<std::int64_t>(to_cell(first, 0, across), 0), 0);
     }
-    return {std::max<std::int64_t>(low[0], 0), std::max<std::int64_t>(low[1], 0), high[0], high[1]};
+    return {low[0], low[1], high[0], high[1], of_map};
   }
 
   /// How far beside a caster point its shadow falls on rays.
@@ -253,10 +255,10 @@ class CellMarker {
     return spread;
   }
 
-  /// Cell of a texel coordinate, between -1 and `most`.
+  /// Cell of a texel coordinate, counted from that of texel `start`, between -1 and `most`.
   static std::int64_t to_cell(double texel, std::int32_t start, std::int32_t most) {
     return static_cast<std::int64_t>(
-        std::clamp(std::floor((texel - start) / kCellSize), -1.0, static_cast<double>(most)));
+        std::clamp(std::floor(texel / kCellSize) - start / kCellSize, -1.0, static_cast<double>(most)));
   }
 
   /// Whether light and all rays of a cell, up to their ends, stay on one side of the triangle's plane.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct TileBlock {
   std::vector<float> domain_ends;
   std::vector<RayPacket> packets;            ///< by the shift law only
   std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
+  std::array<std::uint64_t, 2> inputs{};     ///< BlockKey::inputs
 };
 
 /// What is counted block by block: the sums over a map do not depend on its tiles.
@@ -42,6 +44,7 @@ struct FittedBlock {
   /// levels[0] is the block; levels[l] has its width >> l x height >> l texels of mip level l, row by row.
   std::vector<FunctionBlock> levels;
   BlockCounts counts;
+  std::array<std::uint64_t, 2> inputs{};  ///< BlockKey::inputs
 };
 
 }  // namespace pdsm

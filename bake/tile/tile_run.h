@@ -29,6 +29,8 @@ class TileRun {
   /// Leaves out a block that is there already. Before run(), once a block.
   void leave_out(std::uint32_t block, const BlockCounts& counts);
 
+  [[nodiscard]] bool is_left_out(std::uint32_t block) const { return is_left_out_[block]; }
+
   /// Bakes all other blocks of the plan. Throws Error (resource) when the memory can't be met, (interrupted).
   void run();
 

@@ -13,6 +13,7 @@ PenumbraMap make_shell(const PenumbraMap& map) {
   shell.coding = map.coding;
   shell.samples = map.samples;
   shell.metadata = map.metadata;
+  shell.block_keys = map.block_keys;
   for (const FunctionImage& image : map.images) {
     FunctionImage& empty = shell.images.emplace_back();
     empty = {image.layer, image.view, image.level, image.width, image.height, {}};

@@ -44,6 +44,7 @@ enum FaultNumber : int {
   kFaultBlockCount = 46,
   kFaultSample = 50,
   kFaultMetadata = 51,
+  kFaultBlockKeys = 52,
 
   kFaultBlockSize = 60,
   kFaultBlockReserved = 61,

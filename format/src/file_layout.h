@@ -25,6 +25,7 @@ using ChunkType = std::array<char, 4>;
 inline constexpr ChunkType kMapChunk{'M', 'A', 'P', 'D'};
 inline constexpr ChunkType kSamplesChunk{'S', 'M', 'P', 'L'};
 inline constexpr ChunkType kMetadataChunk{'M', 'E', 'T', 'A'};
+inline constexpr ChunkType kBlockKeysChunk{'B', 'K', 'E', 'Y'};
 inline constexpr ChunkType kBlockChunk{'B', 'L', 'C', 'K'};
 
 inline constexpr std::uint32_t kCriticalFlag = 1;  ///< a reader that does not know the type gives up
@@ -84,6 +85,14 @@ struct SampleRecord {
   std::uint32_t reserved;
 };
 static_assert(sizeof(SampleRecord) == 40);
+
+struct BlockKeyRecord {
+  std::array<std::uint64_t, 2> inputs;
+  std::uint64_t content, events;
+  std::uint32_t undarkened_texels;
+  std::uint32_t reserved;
+};
+static_assert(sizeof(BlockKeyRecord) == 40);
 
 /// Head of a raw block; function offsets, domain ends and packed vertices follow.
 struct BlockHeader {

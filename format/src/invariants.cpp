@@ -198,6 +198,20 @@ Verdict check_block(const VertexCoding& coding, std::uint32_t texel_count, const
   return {};
 }
 
+Verdict check_block_keys(const PenumbraMap& map) {
+  if (map.block_keys.empty()) return {};
+  const FunctionImage none, &image = map.images.empty() ? none : map.images.front();
+  const std::uint32_t across = image.blocks_across();
+  if (map.block_keys.size() != std::uint64_t{across} * image.blocks_up())
+    return Violation{kFaultBlockKeys, "one block key for each block of image 0"};
+  for (std::uint32_t b = 0; b < map.block_keys.size(); ++b) {
+    const auto [width, height] = block_extent(image.width, image.height, b % across, b / across);
+    if (map.block_keys[b].undarkened_texels > width * height)
+      return Violation{kFaultBlockKeys, "a count of texels that the block has"};
+  }
+  return {};
+}
+
 std::string find_invariant_fault(const PenumbraMap& map) {
   if (auto verdict = check_coding(map.coding)) return "coding: expected " + verdict->expected;
   if (map.views.empty()) return "views: expected one or more";
@@ -212,6 +226,7 @@ std::string find_invariant_fault(const PenumbraMap& map) {
       return "samples[" + std::to_string(n) + "]: expected " + verdict->expected;
   }
   if (auto verdict = check_metadata(map.metadata)) return "metadata: expected " + verdict->expected;
+  if (auto verdict = check_block_keys(map)) return "block_keys: expected " + verdict->expected;
   for (std::size_t n = 0; n < map.images.size(); ++n) {
     const FunctionImage& image = map.images[n];
     const std::string where = "images[" + std::to_string(n) + "].blocks";

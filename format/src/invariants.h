@@ -31,6 +31,8 @@ inline constexpr std::size_t kMaxLayerName = 255;
 [[nodiscard]] Verdict check_images(const PenumbraMap& map);
 [[nodiscard]] Verdict check_sample(const LightSample& sample);
 [[nodiscard]] Verdict check_metadata(const std::string& metadata);
+/// One for each block of image 0, or none.
+[[nodiscard]] Verdict check_block_keys(const PenumbraMap& map);
 /// A block of `texel_count` texels.
 [[nodiscard]] Verdict check_block(const VertexCoding& coding, std::uint32_t texel_count,
                                   const FunctionBlock& block);

@@ -2,6 +2,7 @@
 #include "map_parser.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "block_codec.h"
@@ -24,6 +25,8 @@ class MapParser {
 
   /// An empty sink: without a look into the blocks.
   PenumbraMap parse(const BlockSink& sink);
+  /// As parse_parts(); faults are of no matter.
+  std::optional<MapParts> parse_parts();
 
  private:
   [[nodiscard]] std::span<const std::byte> stored(std::size_t index) const {
@@ -38,6 +41,7 @@ class MapParser {
   bool parse_layers(ByteReader& reader, std::uint32_t count, std::uint64_t at);
   void parse_samples(std::size_t index);
   void parse_metadata(std::size_t index);
+  bool parse_block_keys(std::size_t index);
   bool count_blocks();
   void parse_blocks(const BlockSink& sink);
   void parse_block(std::size_t index, std::size_t image, std::uint32_t block, const BlockSink& sink);
@@ -55,16 +59,16 @@ class MapParser {
   PenumbraMap map_;
 };
 
-/// MAPD, SMPL, META, BLCK in this order, the first once, the next two at most once.
+/// MAPD, SMPL, META, BKEY, BLCK in this order, the first once, the next three at most once.
 bool MapParser::check_order() {
-  constexpr std::array kOrder{kMapChunk, kSamplesChunk, kMetadataChunk, kBlockChunk};
+  constexpr std::array kOrder{kMapChunk, kSamplesChunk, kMetadataChunk, kBlockKeysChunk, kBlockChunk};
   std::size_t rank = 0;  // of the next type that may come
   for (std::size_t n = 0; n < table_.entries.size(); ++n) {
     const auto found = std::find(kOrder.begin(), kOrder.end(), table_.entries[n].type);
     if (found == kOrder.end()) continue;
     const auto type = static_cast<std::size_t>(found - kOrder.begin());
     if (type < rank || (rank == 0 && type != 0))
-      return fault(kFaultChunkOrder, entry_offset(n), "chunks in the order MAPD, SMPL, META, BLCK");
+      return fault(kFaultChunkOrder, entry_offset(n), "chunks in the order MAPD, SMPL, META, BKEY, BLCK");
     rank = *found == kBlockChunk ? type : type + 1;
     if (*found == kBlockChunk) blocks_.push_back(n);
   }
@@ -202,6 +206,22 @@ void MapParser::parse_metadata(std::size_t index) {
     fault(verdict->number, table_.entries[index].offset, verdict->expected);
 }
 
+bool MapParser::parse_block_keys(std::size_t index) {
+  const auto payload = plain_payload(index);
+  if (!payload) return false;
+  const std::uint64_t at = table_.entries[index].offset;
+  if (payload->empty() || payload->size() % sizeof(BlockKeyRecord) != 0)
+    return fault(kFaultBlockKeys, at, "block keys of 40 bytes, one or more");
+  ByteReader reader(*payload);
+  while (reader.remaining() > 0) {
+    const auto record = reader.value<BlockKeyRecord>();
+    if (record.reserved != 0) return fault(kFaultBlockKeys, at, "0 in a reserved word of a block key");
+    map_.block_keys.push_back({record.inputs, record.content, record.events, record.undarkened_texels});
+  }
+  const auto verdict = check_block_keys(map_);
+  return !verdict || fault(verdict->number, at, verdict->expected);
+}
+
 /// Whether there is one BLCK chunk for each block of each image.
 bool MapParser::count_blocks() {
   std::uint64_t expected = 0;
@@ -258,9 +278,26 @@ PenumbraMap MapParser::parse(const BlockSink& sink) {
     if (type == kMapChunk) map_is_good = parse_map_chunk(n);
     if (type == kSamplesChunk) parse_samples(n);
     if (type == kMetadataChunk) parse_metadata(n);
+    if (type == kBlockKeysChunk && map_is_good) parse_block_keys(n);
   }
   if (map_is_good && !faults_.full() && count_blocks() && sink) parse_blocks(sink);
   return std::move(map_);
+}
+
+std::optional<MapParts> MapParser::parse_parts() {
+  auto table = parse_table(bytes_, faults_);
+  if (!table) return std::nullopt;
+  table_ = std::move(*table);
+  if (!check_order()) return std::nullopt;
+  bool map_is_good = false;
+  for (std::size_t n = 0; n < table_.entries.size(); ++n) {
+    if (!table_.good[n]) continue;
+    if (table_.entries[n].type == kMapChunk) map_is_good = parse_map_chunk(n);
+    if (table_.entries[n].type == kBlockKeysChunk && map_is_good && !parse_block_keys(n))
+      map_.block_keys.clear();
+  }
+  if (!map_is_good || !count_blocks()) return std::nullopt;
+  return MapParts{std::move(map_), std::move(table_), std::move(blocks_)};
 }
 
 }  // namespace
@@ -272,6 +309,12 @@ PenumbraMap parse_map(std::span<const std::byte> bytes, const ReadLimits& limits
 
 PenumbraMap parse_frame(std::span<const std::byte> bytes, const ReadLimits& limits, FaultList& faults) {
   return MapParser(bytes, limits, faults).parse({});
+}
+
+std::optional<MapParts> parse_parts(std::span<const std::byte> bytes, const ReadLimits& limits) {
+  // All faults, for damaged blocks are many.
+  FaultList faults(std::numeric_limits<std::size_t>::max());
+  return MapParser(bytes, limits, faults).parse_parts();
 }
 
 }  // namespace pdsm

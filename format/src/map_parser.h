@@ -37,4 +37,14 @@ using BlockSink = std::function<void(std::size_t image, std::size_t block, Funct
 [[nodiscard]] PenumbraMap parse_frame(std::span<const std::byte> bytes, const ReadLimits& limits,
                                       FaultList& faults);
 
+/// What can be told of a file though some of its blocks are damaged.
+struct MapParts {
+  PenumbraMap frame;  ///< without blocks, samples and metadata; without block keys where these are damaged
+  FileTable table;
+  std::vector<std::size_t> blocks;  ///< entries of BLCK chunks: of all images, in their order
+};
+
+/// Nothing where header, table, MAPD or the number of blocks don't hold.
+[[nodiscard]] std::optional<MapParts> parse_parts(std::span<const std::byte> bytes, const ReadLimits& limits);
+
 }  // namespace pdsm

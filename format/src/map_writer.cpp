@@ -59,6 +59,14 @@ std::vector<std::byte> metadata_payload(const PenumbraMap& map) {
   return bytes;
 }
 
+std::vector<std::byte> block_keys_payload(const PenumbraMap& map) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(map.block_keys.size() * sizeof(BlockKeyRecord));
+  for (const BlockKey& key : map.block_keys)
+    append_value(bytes, BlockKeyRecord{key.inputs, key.content, key.events, key.undarkened_texels, 0});
+  return bytes;
+}
+
 /// A chunk that owns its bytes.
 Chunk make_chunk(ChunkType type, std::uint32_t flags, std::vector<std::byte> payload,
                  Compression compression) {
@@ -96,6 +104,9 @@ std::vector<Chunk> make_chunks(const PenumbraMap& map, BlocksOfImages blocks) {
   chunks.push_back(make_chunk(kMapChunk, kCriticalFlag, map_payload(map), Compression::none));
   if (!map.samples.empty()) chunks.push_back(make_chunk(kSamplesChunk, 0, samples_payload(map), compression));
   chunks.push_back(make_chunk(kMetadataChunk, 0, metadata_payload(map), compression));
+  // Hashes can't be compressed.
+  if (!map.block_keys.empty())
+    chunks.push_back(make_chunk(kBlockKeysChunk, 0, block_keys_payload(map), Compression::none));
   for (std::size_t image = 0; image < blocks.size(); ++image) {
     for (std::size_t block = 0; block < blocks[image].size(); ++block)
       chunks.push_back(block_chunk(image, block, blocks[image][block]));

@@ -72,7 +72,8 @@ bool check_place(std::span<const std::byte> bytes, const TableEntry& entry, std:
 }
 
 bool is_known(const ChunkType& type) {
-  return type == kMapChunk || type == kSamplesChunk || type == kMetadataChunk || type == kBlockChunk;
+  return type == kMapChunk || type == kSamplesChunk || type == kMetadataChunk || type == kBlockKeysChunk ||
+         type == kBlockChunk;
 }
 
 /// Flags, padding before and checksum of one well-placed chunk; false where it is not to be used.

@@ -79,7 +79,7 @@ struct KnownLaws {
                                   const BakeOptions& options = {}) const {
     return pdsm::search({options, fixed, goals, 1},
                         [this](const std::string& purpose, const Settings& s, const VerifyOptions& measure,
-                               bool) { return run(purpose, s, measure); });
+                               TrialAim) { return run(purpose, s, measure); });
   }
 };
 

@@ -70,12 +70,13 @@ TEST(Search, TriesAreJudgedAtTheirOwnPoints) {
   const KnownLaws scene = bent_scene();
   std::multiset<std::uint64_t> seeds;
   (void)search({{}, {}, {.target_error = 0.015}, 1}, [&](const std::string& purpose, const Settings& s,
-                                                         const VerifyOptions& measure, bool with_sampling) {
+                                                         const VerifyOptions& measure, TrialAim aim) {
     const bool is_try = purpose.starts_with("try ");
     if (is_try) seeds.insert(measure.seed);
     EXPECT_EQ(seeds.count(measure.seed), is_try ? 1U : 0U) << purpose;
     EXPECT_EQ(measure.points, is_try ? kJudgingPoints : 3000U);
-    EXPECT_EQ(with_sampling, purpose == "trial");
+    EXPECT_EQ(aim == TrialAim::sampling, purpose == "trial");
+    EXPECT_EQ(aim == TrialAim::result, is_try);
     return scene.run(purpose, s, measure);
   });
   EXPECT_GE(seeds.size(), 2U);
@@ -87,7 +88,7 @@ TEST(Search, SurfaceMapsAreMeasuredOnSurfaces) {
     BakeOptions options;
     options.receivers = receivers;
     (void)search({options, {}, {.target_error = 0.02}, 1},
-                 [&](const std::string& purpose, const Settings& s, const VerifyOptions& measure, bool) {
+                 [&](const std::string& purpose, const Settings& s, const VerifyOptions& measure, TrialAim) {
                    EXPECT_EQ(measure.free_space, receivers == Receivers::volume) << purpose;
                    return scene.run(purpose, s, measure);
                  });
@@ -116,7 +117,7 @@ TEST(Search, TheSizeIsHeldAndUsed) {
   // The files of tries are larger than the laws tell.
   const KnownLaws scene = scene_of(0.02, 0.8);
   const RunTrial run = [&](const std::string& purpose, const Settings& s, const VerifyOptions& measure,
-                           bool) {
+                           TrialAim) {
     TrialBake result = scene.run(purpose, s, measure);
     if (purpose.starts_with("try ")) result.trial.bytes += result.trial.bytes / 8;
     return result;
@@ -192,7 +193,7 @@ TEST(Search, WorkIsBoundedUnlessATimeBudgetIs) {
   scene.scatter = 0;
   double most = 0;
   const RunTrial run = [&](const std::string& purpose, const Settings& s, const VerifyOptions& measure,
-                           bool) {
+                           TrialAim) {
     most = std::max(most, s.work());
     return scene.run(purpose, s, measure);
   };
@@ -216,7 +217,7 @@ TEST(Search, TellsHowFarItGot) {
 TEST(Search, OtherTroubleIsNotMistakenForMemory) {
   const KnownLaws scene = scene_of(0.02, 0.8);
   const RunTrial run = [&](const std::string& purpose, const Settings& s, const VerifyOptions& measure,
-                           bool) {
+                           TrialAim) {
     if (purpose == "try 1") throw Error(Failure::resource, "embree", "no device");
     return scene.run(purpose, s, measure);
   };

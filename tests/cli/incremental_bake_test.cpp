@@ -113,6 +113,74 @@ TEST_F(IncrementalBake, OtherOptionsAreBakedAnew) {
   EXPECT_EQ(files_in("maps"), files_in("fresh"));
 }
 
+/// Two small tiles over the floor under a light whose map has 2 x 2 blocks; one moves within the first
+/// quarter.
+class BlocksOfAMap : public IncrementalBake {
+ protected:
+  void write_tiles(const char* x) const {
+    write_file("tile.obj", "v -0.1 0 -0.1\nv -0.1 0 0.1\nv 0.1 0 0.1\nv 0.1 0 -0.1\nf 1 2 3\nf 1 3 4\n");
+    write_file("tiles.scene.json", std::string(R"({ "geometry": [ { "file": "floor.obj" },
+      { "file": "tile.obj", "translate": [0.6, 2, 0.6] }, { "file": "tile.obj", "translate": [)") +
+                                       x + R"(, 2, -0.6] } ], "lights": [
+      { "name": "key", "type": "rect", "position": [0, 4, 0], "direction": [0, -1, 0], "width": 0.5, "height": 0.5, "fov": 40 } ] })");
+  }
+  /// Returns how many blocks were taken over.
+  [[nodiscard]] int bake_tiles(const std::string& output, std::vector<std::string> extra = {}) const {
+    std::vector<std::string> arguments{"bake", "tiles.scene.json", "-o",  output,     "--samples",
+                                       "16",   "--resolution",     "128", "--report", "report.json"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    Json report = Json::parse(contents("report.json"));
+    if (report.contains("key") && report["key"].is_object()) report = report["key"];
+    EXPECT_EQ(report["blocks"], 4);
+    return report["blocks_taken_over"].get<int>();
+  }
+};
+
+TEST_F(BlocksOfAMap, OnlyThoseThatAChangeTouchesAreBaked) {
+  write_tiles("-0.6");
+  EXPECT_EQ(bake_tiles("map.pdsm"), 0);
+  const std::string before = contents("map.pdsm");
+  write_tiles("-0.62");
+  EXPECT_EQ(bake_tiles("map.pdsm"), 3);
+  EXPECT_EQ(bake_tiles("fresh.pdsm"), 0);
+  EXPECT_EQ(contents("map.pdsm"), contents("fresh.pdsm"));
+  EXPECT_EQ(run({"check", "map.pdsm"}).out, "ok\n");
+  EXPECT_NE(run({"info", "map.pdsm"}).out.find("  BKEY     160 "), std::string::npos);
+  // All of it where that is asked for, or all blocks of before are damaged.
+  write_file("map.pdsm", before);
+  EXPECT_EQ(bake_tiles("map.pdsm", {"--force"}), 0);
+  EXPECT_EQ(contents("map.pdsm"), contents("fresh.pdsm"));
+  write_file("map.pdsm", before.substr(0, before.size() - 1));
+  EXPECT_EQ(bake_tiles("map.pdsm"), 0);
+  EXPECT_EQ(contents("map.pdsm"), contents("fresh.pdsm"));
+}
+
+TEST_F(BlocksOfAMap, AreToldOfInTheSummaryAndNotInTheManifest) {
+  fs::create_directory(path("maps"));
+  fs::create_directory(path("fresh"));
+  write_tiles("-0.6");
+  EXPECT_EQ(bake_tiles("maps"), 0);
+  write_tiles("-0.62");
+  const Outcome outcome =
+      run({"bake", "tiles.scene.json", "-o", "maps", "--samples", "16", "--resolution", "128"});
+  EXPECT_NE(outcome.err.find(" 3/4 "), std::string::npos) << outcome.err;
+  EXPECT_EQ(bake_tiles("fresh"), 0);
+  EXPECT_EQ(files_in("maps"), files_in("fresh"));
+}
+
+TEST_F(BlocksOfAMap, SurviveExchange) {
+  write_tiles("-0.6");
+  EXPECT_EQ(bake_tiles("map.pdsm"), 0);
+  EXPECT_EQ(run({"export", "map.pdsm", "-o", "deep.exr"}).exit_code, 0);
+  EXPECT_EQ(run({"import", "deep.exr", "-o", "again.pdsm"}).exit_code, 0);
+  write_tiles("-0.62");
+  EXPECT_EQ(bake_tiles("again.pdsm"), 3);
+  EXPECT_EQ(bake_tiles("fresh.pdsm"), 0);
+  EXPECT_EQ(contents("again.pdsm"), contents("fresh.pdsm"));
+}
+
 TEST_F(IncrementalBake, ForceBakesAnyway) {
   write_level(5);
   ASSERT_EQ(bake_level("maps").exit_code, 0);
@@ -211,6 +279,21 @@ TEST_F(IncrementalBake, DepfileEscapesAsMakeAndNinjaExpect) {
             0);
   EXPECT_NE(contents("x.d").find("\n  a\\ b\\#c$$d\\\\\\ e\\:f.obj \\\n"), std::string::npos)
       << contents("x.d");
+}
+
+TEST_F(IncrementalBake, DepfileRefusesWhatMakeAndNinjaReadInTwoWays) {
+  const auto bake_plate = [&](const std::string& plate, const std::string& map) {
+    fs::copy_file(path("plate.obj"), path(plate), fs::copy_options::overwrite_existing);
+    write_file("odd.scene.json", R"({ "geometry": [ { "file": ")" + plate + R"(" } ], "lights": [
+      { "name": "key", "type": "rect", "position": [0, 4, 0], "direction": [0, -1, 0], "width": 1, "height": 1, "fov": 40 } ] })");
+    return run(
+        {"bake", "odd.scene.json", "-o", map, "--samples", "4", "--resolution", "8", "--depfile", "x.d"});
+  };
+  expect_exit(bake_plate("a;b.obj", "x.pdsm"), 2);
+  expect_exit(bake_plate("plain.obj", "100%.pdsm"), 2);
+  EXPECT_FALSE(exists("x.d"));
+  ASSERT_EQ(bake_plate("50%.obj", "x.pdsm").exit_code, 0);
+  EXPECT_EQ(contents("x.d"), "x.pdsm: \\\n  odd.scene.json \\\n  50%.obj\nodd.scene.json:\n");
 }
 
 TEST_F(IncrementalBake, DepfileIsNoOtherFile) {

@@ -109,6 +109,23 @@ TEST(PayloadFault, Metadata) {
   }
 }
 
+TEST(PayloadFault, BlockKeys) {
+  const std::size_t blocks = testing::sample_map().images[0].blocks.size();
+  const auto with_keys = [](const Bytes& keys) {
+    return testing::insert_chunk(sample_file(), 3, "BKEY", 0, keys);
+  };
+  const Bytes good(40 * blocks);
+  EXPECT_EQ(read_map(with_keys(good), "name").block_keys.size(), blocks);
+  const std::size_t at = payload_at(with_keys(good), "BKEY");
+  for (const std::size_t size : {std::size_t{0}, good.size() - 1, good.size() - 40, good.size() + 40})
+    expect_fault(with_keys(Bytes(size)), 52, at);
+  for (const auto& [inside, value] : {std::pair<std::size_t, std::uint32_t>{32, 64 * 64 + 1}, {36, 1}}) {
+    Bytes bad = good;
+    put(bad, inside, value);
+    expect_fault(with_keys(bad), 52, at);
+  }
+}
+
 /// The sample file with its first block replaced by bytes that `change` made of the old ones.
 template <typename Change>
 void expect_block_fault(int number, Change change) {

@@ -127,6 +127,10 @@ PenumbraMap random_map(std::uint64_t seed, const MapShape& shape) {
       }
     }
   }
+  const FunctionImage& base = map.images.front();
+  for (std::uint32_t n = shape.block_keys ? base.blocks_across() * base.blocks_up() : 0; n > 0; --n)
+    map.block_keys.push_back(
+        {{random.below(~std::uint64_t{0}), n}, random.below(~std::uint64_t{0}), n, n % 2});
   map.metadata = "{\"seed\": " + std::to_string(seed) + ", \"name\": \"caf\u00e9\"}";
   return map;
 }
@@ -145,6 +149,7 @@ MapShape random_shape(std::uint64_t seed) {
   shape.most_vertices = static_cast<std::uint32_t>(1 + random.below(20));
   shape.empty_share = random.real(0, 1);
   shape.domain_end = random.chance(0.5);
+  shape.block_keys = seed % 3 == 0;
   shape.projection = random.chance(0.5) ? Projection::perspective : Projection::orthographic;
   return shape;
 }

@@ -37,6 +37,7 @@ struct MapShape {
   std::uint32_t most_vertices = 12;  ///< of a function
   double empty_share = 0.4;          ///< of texels without vertices
   bool domain_end = true;
+  bool block_keys = false;
   Projection projection = Projection::perspective;
 };
 

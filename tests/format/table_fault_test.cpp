@@ -153,6 +153,7 @@ TEST(Fault, OptionalChunksMayBeMissing) {
 TEST(Fault, ChunkOrder) {
   expect_fault(testing::insert_chunk(sample_file(), 0, "META", 0, Bytes(2)), 26, entry_at(0));
   expect_fault(testing::insert_chunk(sample_file(), 1, "META", 0, Bytes(2)), 26, entry_at(2));
+  expect_fault(testing::insert_chunk(sample_file(), 2, "BKEY", 0, Bytes(40)), 26, entry_at(3));
   expect_fault(testing::insert_chunk(sample_file(), 1, "MAPD", 1, Bytes(2)), 26, entry_at(1));
   Bytes empty = sample_file();
   empty.resize(testing::kHeaderSize);

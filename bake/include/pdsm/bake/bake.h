@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -62,6 +63,13 @@ struct BakeOptions {
   /// Replaces `samples`, `points` and `seed` when not empty: any points in light space, also out of its
   /// plane (z < near), or for a distant light any directions of its rays (z = 1); equal weights.
   std::vector<LightSample> light_samples;
+  /// Whether the map gets block keys (penumbra_map.h), for later bakes to take blocks over from it: where
+  /// sample maps are projected, and of blocks without limited slopes. Nothing else depends on it.
+  bool block_keys = false;
+  /// A map file of before, of any origin; empty: none. Blocks that it has block keys of, and that would come
+  /// out the same, are taken from it instead of being baked. What is damaged, or of other options, is baked;
+  /// the result is the same with and without. The file may be the one that the result replaces later.
+  std::filesystem::path previous;
   std::string isa;         ///< Embree's: sse2, sse4.2, avx, avx2, avx512; empty: best
   std::uint32_t tile = 0;  ///< edge of a tile in texels, multiple of 64; 0: by cost
 };
@@ -89,6 +97,8 @@ struct BakeReport {
   std::uint64_t rays = 0, events = 0, tiles = 0;
   std::uint64_t texels = 0, pieces = 0, empty_texels = 0;  ///< of level 0
   std::uint32_t mip_levels = 0;                            ///< above 0, that were made
+  std::uint64_t blocks = 0;                                ///< of level 0
+  std::uint64_t blocks_taken_over = 0;                     ///< of these, from BakeOptions::previous
   std::uint64_t peak_event_bytes = 0;
   std::uint64_t resident_after_bvh = 0;  ///< bytes resident in memory when the BVH stood
   std::uint32_t map_width = 0, map_height = 0, samples = 0, tile = 0;
@@ -132,7 +142,7 @@ struct BakedMap {
 [[nodiscard]] BakedMap bake(const Scene& scene, const Light& light, const BakeOptions& options,
                             const BakeCallbacks& callbacks = {}, Checkpoint* checkpoint = nullptr);
 
-/// What bake() with the same arguments would take. Same faults.
+/// What bake() with the same arguments, and no map of before, would take. Same faults.
 [[nodiscard]] BakePrediction predict_bake(const Scene& scene, const Light& light, const BakeOptions& options);
 
 /// The decoded map of a bake.

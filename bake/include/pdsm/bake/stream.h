@@ -22,7 +22,7 @@ struct BakeStream {
 };
 
 /// The same as bake(), but that finished blocks go to `stream` and are not kept: `blocks` of the result are
-/// empty. Blocks of a checkpoint come again, so that a stream is always whole.
+/// empty; its block keys are not. Blocks of a checkpoint come again, so that a stream is always whole.
 [[nodiscard]] BakedMap bake_streamed(const Scene& scene, const Light& light, const BakeOptions& options,
                                      const BakeStream& stream, const BakeCallbacks& callbacks = {},
                                      Checkpoint* checkpoint = nullptr);

@@ -118,6 +118,20 @@ struct FunctionImage {
   friend bool operator==(const FunctionImage&, const FunctionImage&) = default;
 };
 
+/// What tells whether a block of level 0, with its part of each mip level, is that of another bake too.
+/// Nothing that a look-up needs.
+struct BlockKey {
+  /// A hash of all that the block was baked from; 0, 0 where that can't be told. Its value is the baker's.
+  std::array<std::uint64_t, 2> inputs{};
+  std::uint64_t content = 0;            ///< a hash of all else here and of the functions
+  std::uint64_t events = 0;             ///< visibility events, of level 0
+  std::uint32_t undarkened_texels = 0;  ///< texels whose rays nothing can darken
+
+  /// Whether there is a key at all.
+  [[nodiscard]] bool is_known() const { return inputs[0] != 0 || inputs[1] != 0; }
+  friend bool operator==(const BlockKey&, const BlockKey&) = default;
+};
+
 /// How the layers of a light combine at look-up. The union of two casters' shadows is not a function of
 /// the two attenuations; it lies between these two rules.
 enum class LayerRule : std::uint32_t { maximum = 0, clamped_sum = 1 };
@@ -134,6 +148,8 @@ struct PenumbraMap {
   /// One JSON object for people and tools: light, options, input hash, tool version, ISA, achieved
   /// error. Nothing that a look-up needs.
   std::string metadata = "{}";
+  /// One for each block of image 0, or none: for bakes that take over what has not changed.
+  std::vector<BlockKey> block_keys;
 
   friend bool operator==(const PenumbraMap&, const PenumbraMap&) = default;
 };
