@@ -245,7 +245,7 @@ PdsmBetween pdsm_between(PDSM_REAL position, uint size) {
 
 // The texel of an axis that holds `position`; the far border belongs to the last one.
 uint pdsm_holding(PDSM_REAL position, uint size) {
-  return min(uint(max(position, PDSM_REAL(0.0))), size - 1u);
+  return uint(min(max(position, PDSM_REAL(0.0)), PDSM_REAL(size - 1u)));
 }
 
 PDSM_REAL pdsm_mix(PDSM_REAL from, PDSM_REAL to, PDSM_REAL share) {

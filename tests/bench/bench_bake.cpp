@@ -75,6 +75,7 @@ void run(int argc, char** argv) {
   BakeOptions options;
   options.width = options.height = bench::count_argument(argc, argv, 3, options.width);
   options.samples = bench::count_argument(argc, argv, 4, options.samples);
+  options.block_keys = true;  // as `pdsm bake` has them
   const BakeJob job(scene, light, options);
   const bool with_plain = argc > 5 && std::strcmp(argv[5], "plain") == 0;
   std::vector<double> trace, baked, plain, over_trace, over_plain;

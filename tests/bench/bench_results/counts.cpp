@@ -48,7 +48,9 @@ void measure_counts(const Folders& folders) {
   for (const Bake& each : kBakes) {
     const Scene scene = read_scene(folders.scenes / (std::string(each.scene) + ".scene.json"));
     const Light& light = light_of(scene, each.light);
-    const TimedBake timed = timed_bake(scene, light, BakeOptions(), folders.scenes);
+    BakeOptions options;
+    options.block_keys = true;  // as `pdsm bake` has them
+    const TimedBake timed = timed_bake(scene, light, options, folders.scenes);
     const BakeReport& report = timed.baked.report;
     table.rows.push_back({each.scene, each.light, std::to_string(report.rays), std::to_string(report.events),
                           std::to_string(report.pieces), std::to_string(timed.file_bytes),
