@@ -126,6 +126,14 @@ std::optional<glm::vec3> base_color(const aiScene& scene, const aiMesh& mesh) {
   return glm::clamp(glm::vec3(color.r, color.g, color.b), 0.0F, 1.0F);
 }
 
+std::string material_name(const aiScene& scene, const aiMesh& mesh) {
+  aiString name;
+  const bool named = mesh.mMaterialIndex < scene.mNumMaterials &&
+                     scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
+                     std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) != 0;
+  return named ? name.C_Str() : "";
+}
+
 /// Adds the meshes of all nodes, depth first.
 void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector& parts) {
   std::vector<std::shared_ptr<const Mesh>> meshes(scene.mNumMeshes);
@@ -141,7 +149,7 @@ void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector&
       if (!meshes[index]) {
         Mesh raw = to_mesh(mesh);
         cutouts.cut_out(mesh, raw);
-        meshes[index] = parts.clean(raw);
+        meshes[index] = parts.clean(raw, node->mName.C_Str(), material_name(scene, mesh));
       }
       parts.add(node->mName.C_Str(), meshes[index], node_to_file, base_color(scene, mesh));
     }

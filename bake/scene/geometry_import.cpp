@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/geometry_import.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/error.h"
+#include "scene/one_line.h"
 
 namespace pdsm {
 namespace {
@@ -35,8 +38,20 @@ double determinant(const glm::dmat4& m) {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> PartCollector::clean(const Mesh& raw) {
-  return std::make_shared<Mesh>(clean_mesh(raw, file_.left_out));
+std::shared_ptr<const Mesh> PartCollector::clean(const Mesh& raw, const std::string& node_name,
+                                                 const std::string& material) {
+  ++meshes_;
+  LeftOut left_out;
+  auto mesh = std::make_shared<Mesh>(clean_mesh(raw, left_out));
+  if (left_out.total() > 0)
+    leave_out(left_out, material.empty() ? node_name : node_name + " (" + material + ")");
+  return mesh;
+}
+
+void PartCollector::leave_out(const LeftOut& left_out, const std::string& where) {
+  add_left_out(left_out);
+  const std::string name = one_line(where);
+  if (!name.empty() && told_.insert(name).second) file_.left_out_of.push_back(name);
 }
 
 void PartCollector::add_left_out(const LeftOut& left_out) {
@@ -54,7 +69,9 @@ void PartCollector::add(const std::string& node_name, const std::shared_ptr<cons
   if (mesh->triangles.empty()) return;
   const double volume = determinant(local_to_file);
   if (volume == 0 || !std::isfinite(volume)) {
-    (volume == 0 ? file_.left_out.no_area : file_.left_out.not_finite) += mesh->triangles.size();
+    LeftOut left_out;
+    (volume == 0 ? left_out.no_area : left_out.not_finite) = mesh->triangles.size();
+    leave_out(left_out, node_name);
     return;
   }
   Geometry part;
@@ -71,7 +88,21 @@ ImportedFile PartCollector::take() {
     part.name = named ? file_name_ + ":" + part.name : file_name_;
   }
   turn_over(file_.parts, [](const Geometry& part) { return determinant(part.local_to_world) < 0; });
+  // Of a file's only mesh, its name tells nothing more.
+  if (meshes_ < 2) file_.left_out_of.clear();
   return std::move(file_);
+}
+
+std::string describe_left_out(const ImportedFile& file) {
+  constexpr std::size_t kMostNames = 3;
+  std::string text = describe(file.left_out);
+  const std::size_t count = file.left_out_of.size(), named = std::min(count, kMostNames);
+  for (std::size_t n = 0; n < named; ++n) {
+    const char* before = n == 0 ? ", of " : n + 1 == count ? " and " : ", ";
+    text += before + file.left_out_of[n];
+  }
+  if (count > named) text += fmt::format(" and {} more", count - named);
+  return text;
 }
 
 void place(std::vector<Geometry>& parts, const glm::dmat4& placement) {

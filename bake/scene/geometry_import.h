@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class GltfLights;
 struct ImportedFile {
   std::vector<Geometry> parts;  ///< without triangles: none
   LeftOut left_out;
+  std::vector<std::string>
+      left_out_of;                    ///< nodes and materials that had those, each once, where there are more
   std::vector<std::string> warnings;  ///< besides what was left out; without the file's name
 };
 
@@ -39,13 +42,17 @@ struct ImportedFile {
 /// Whether a file of this name, unpacked, is glTF or GLB.
 [[nodiscard]] bool is_gltf_name(const std::filesystem::path& name);
 
+/// "12 triangles without area left out, of wall (brick), roof and 3 more"; empty where none were.
+[[nodiscard]] std::string describe_left_out(const ImportedFile& file);
+
 /// Gathers the parts of a file: meshes under node transforms.
 class PartCollector {
  public:
   explicit PartCollector(std::string file_name) : file_name_(std::move(file_name)) {}
 
-  /// Cleans a mesh for any number of parts.
-  [[nodiscard]] std::shared_ptr<const Mesh> clean(const Mesh& raw);
+  /// Cleans a mesh for any number of parts; `node_name` and `material` are for the warning.
+  [[nodiscard]] std::shared_ptr<const Mesh> clean(const Mesh& raw, const std::string& node_name,
+                                                  const std::string& material);
 
   /// Counts triangles that the file's reader has left out itself.
   void add_left_out(const LeftOut& left_out);
@@ -61,8 +68,12 @@ class PartCollector {
   [[nodiscard]] ImportedFile take();
 
  private:
+  void leave_out(const LeftOut& left_out, const std::string& where);
+
   std::string file_name_;
   ImportedFile file_;
+  std::size_t meshes_ = 0;
+  std::set<std::string> told_;  ///< what left_out_of names
 };
 
 /// Places parts: local_to_world = placement * local_to_world. Where the placement mirrors, triangles are

@@ -149,6 +149,11 @@ std::optional<glm::vec3> base_color(const tinygltf::Model& model, int material) 
   return glm::clamp(glm::vec3(factor[0], factor[1], factor[2]), 0.0F, 1.0F);
 }
 
+std::string material_name(const tinygltf::Model& model, int material) {
+  const auto index = static_cast<std::size_t>(material);
+  return material >= 0 && index < model.materials.size() ? model.materials[index].name : "";
+}
+
 glm::dmat4 rotation_matrix(const std::vector<double>& quaternion) {
   const double length =
       std::sqrt(std::inner_product(quaternion.begin(), quaternion.end(), quaternion.begin(), 0.0));
@@ -246,21 +251,21 @@ class NodeWalk {
       open_.emplace_back(node.children[child], node_to_file);
   }
 
-  std::shared_ptr<const Mesh> read(const tinygltf::Primitive& primitive) {
+  std::shared_ptr<const Mesh> read(const tinygltf::Primitive& primitive, const std::string& node_name) {
     Mesh mesh = to_mesh(model_, primitive);
     cutouts_.cut_out(primitive, mesh);
-    return parts_.clean(mesh);
+    return parts_.clean(mesh, node_name, material_name(model_, primitive.material));
   }
 
   void add_mesh(const tinygltf::Node& node, const glm::dmat4& node_to_file) {
     const auto index = static_cast<std::size_t>(node.mesh);
     if (index >= model_.meshes.size()) throw FormatFault(fmt::format("meshes[{}] does not exist", node.mesh));
     const tinygltf::Mesh& source = model_.meshes[index];
+    const std::string& name = node.name.empty() ? source.name : node.name;
     auto& primitives = meshes_[index];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
-      if (primitives.size() == p) primitives.push_back(read(source.primitives[p]));
-      parts_.add(node.name.empty() ? source.name : node.name, primitives[p], node_to_file,
-                 base_color(model_, source.primitives[p].material));
+      if (primitives.size() == p) primitives.push_back(read(source.primitives[p], name));
+      parts_.add(name, primitives[p], node_to_file, base_color(model_, source.primitives[p].material));
     }
   }
 

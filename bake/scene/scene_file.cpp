@@ -93,7 +93,7 @@ const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
 }
 
 void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
-  const std::string left_out = describe(file.left_out);
+  const std::string left_out = describe_left_out(file);
   if (!left_out.empty()) scene_.warnings.push_back(name + ": " + left_out);
   for (const std::string& warning : file.warnings) scene_.warnings.push_back(name + ":" + warning);
 }

@@ -97,5 +97,26 @@ TEST_F(LeftOutTest, FilesWithoutTrianglesAreValid) {
   EXPECT_TRUE(read("none.gltf", R"({"asset": {"version": "2.0"}})").geometry.empty());
 }
 
+TEST_F(LeftOutTest, NodesAndMaterialsAreNamed) {
+  const auto object = [](const std::string& name, const std::string& material, bool good) {
+    return "o " + name + "\n" + (material.empty() ? "" : "usemtl " + material + "\n") + "f 1 2 3\n" +
+           (good ? "" : "f 1 1 3\n");
+  };
+  folder_.write("a.mtl", "newmtl brick\nKd 1 0 0\nnewmtl tiles\nKd 0 1 0\n");
+  const std::string begin = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string one = begin + object("wall", "brick", false) + object("floor", "brick", true);
+  EXPECT_EQ(read("a.obj", one).warnings,
+            Warnings{"a.obj: 1 triangle without area left out, of wall (brick)"});
+  const std::string two = one + object("roof", "tiles", false);
+  EXPECT_EQ(read("b.obj", two).warnings,
+            Warnings{"b.obj: 2 triangles without area left out, of wall (brick) and roof (tiles)"});
+  const std::string five =
+      two + object("a", "tiles", false) + object("b", "tiles", false) + object("c", "tiles", false);
+  EXPECT_EQ(
+      read("c.obj", five).warnings,
+      Warnings{
+          "c.obj: 5 triangles without area left out, of wall (brick), roof (tiles), a (tiles) and 2 more"});
+}
+
 }  // namespace
 }  // namespace pdsm::test
