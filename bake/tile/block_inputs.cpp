@@ -4,6 +4,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "tile/block_grid.h"
 #include "tile/block_reach.h"
@@ -15,6 +17,9 @@
 
 namespace pdsm {
 namespace {
+
+/// Casters that are asked for together first.
+constexpr std::size_t kTogether = 64;
 
 /// All of a caster that maps depend on: its corners, as they are.
 std::array<std::uint64_t, 2> hash_caster(const std::array<glm::vec3, 3>& corners) {
@@ -44,6 +49,18 @@ class CasterLists {
       return true;
     });
   }
+  /// Whether none of these casters tells anything: they reach no block that might get a key.
+  [[nodiscard]] bool may_pass_over(const LightSpaceMesh& mesh, std::span<const glm::uvec3> triangles) {
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+    for (const glm::uvec3& t : triangles) {
+      for (int n = 0; n < 3; ++n) {
+        low = glm::min(low, mesh.positions[t[n]]);
+        high = glm::max(high, mesh.positions[t[n]]);
+      }
+    }
+    const BlockRange range = reach_.of_box(low, high);
+    return range.empty() || all_are_traced(range);
+  }
   [[nodiscard]] const std::vector<BlockCasters>& lists() const { return lists_; }
 
  private:
@@ -72,8 +89,12 @@ void add_casters(const LightSpaceScene& scene, std::size_t begin, std::size_t en
   for (const LightSpaceMesh& mesh : scene.meshes) {
     if (!mesh.casts) continue;
     const std::size_t last = first + mesh.triangles.size();
-    for (std::size_t n = std::max(begin, first); n < std::min(end, last); ++n)
-      lists.add(mesh, mesh.triangles[n - first]);
+    const std::size_t to = std::min(end, last);
+    for (std::size_t n = std::max(begin, first); n < to; n += kTogether) {
+      const auto some = std::span(mesh.triangles).subspan(n - first, std::min(kTogether, to - n));
+      if (lists.may_pass_over(mesh, some)) continue;
+      for (const glm::uvec3& t : some) lists.add(mesh, t);
+    }
     first = last;
   }
 }

@@ -44,6 +44,20 @@ BlockRange BlockReach::of(const std::array<glm::dvec3, 3>& triangle) const {
       include(cut, bounds);
     }
   }
+  return blocks_of(bounds);
+}
+
+BlockRange BlockReach::of_box(const glm::dvec3& low, const glm::dvec3& high) const {
+  if (!(low.z >= first_depth_ && high.z * inverse_far_ <= 1)) return {0, 0, blocks_[0], blocks_[1]};
+  Bounds bounds;
+  for (const double z : {low.z, high.z}) {
+    include({low.x, low.y, z}, bounds);
+    include({high.x, high.y, z}, bounds);
+  }
+  return blocks_of(bounds);
+}
+
+BlockRange BlockReach::blocks_of(const Bounds& bounds) const {
   std::uint32_t first[2], last[2];
   for (std::size_t a = 0; a < 2; ++a) {
     const auto block = [&](double slope) {

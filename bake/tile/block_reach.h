@@ -37,6 +37,9 @@ class BlockReach {
   BlockReach(const MapGrid& grid, const LightBounds& light, double first_depth);
 
   [[nodiscard]] BlockRange of(const std::array<glm::dvec3, 3>& triangle) const;
+  /// Of all triangles with corners from `low` to `high`, or of more: everything where the box reaches before
+  /// the first depth or behind far.
+  [[nodiscard]] BlockRange of_box(const glm::dvec3& low, const glm::dvec3& high) const;
 
  private:
   /// Bounds as slopes, x and y.
@@ -45,6 +48,7 @@ class BlockReach {
     Bounds();
   };
   void include(const glm::dvec3& corner, Bounds& bounds) const;
+  [[nodiscard]] BlockRange blocks_of(const Bounds& bounds) const;
 
   LightBounds light_;
   double first_depth_, inverse_far_;
