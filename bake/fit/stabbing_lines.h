@@ -46,7 +46,8 @@ class StabbingLines {
   /// `turns`: the ends that matter to windows added later. An end that lies between two of its side of the
   /// same height, or tighter, does not: lines that pass both pass it, and tangents from behind touch the
   /// former.
-  [[gnu::always_inline]] void add(std::int64_t x, std::int64_t low, std::int64_t high, Ends turns = {true, true}) {
+  [[gnu::always_inline]] void add(std::int64_t x, std::int64_t low, std::int64_t high,
+                                  Ends turns = {true, true}) {
     if (windows_ == 1 || compare(steepest_, x, high) > 0) {
       // Tangent from the new high end to the upper hull of the low ends: the least slope.
       auto& [points, pivot] = lows_;

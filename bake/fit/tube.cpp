@@ -88,8 +88,7 @@ std::size_t slide(const TubeWorkspace& room, SlidingRange counts, std::int64_t l
     const std::int64_t after = std::min(closes[first], opens[next]);
     const CountBounds bounds = bounds_of(counts.from(first));
     runs[size] = {at, bounds.lower, bounds.upper};
-    const bool is_new =
-        (after > at) & ((bounds.lower != last.lower) | (bounds.upper != last.upper));
+    const bool is_new = (after > at) & ((bounds.lower != last.lower) | (bounds.upper != last.upper));
     size += is_new;
     last = is_new ? bounds : last;
     at = after;

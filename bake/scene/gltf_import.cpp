@@ -17,6 +17,7 @@
 #include "scene/geometry_import.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_cutouts.h"
+#include "scene/gltf_element.h"
 #include "scene/gltf_lights.h"
 #include "scene/json_document.h"
 #include "scene/one_line.h"
@@ -238,12 +239,10 @@ class NodeWalk {
 
  private:
   void visit(int index, const glm::dmat4& parent_to_file) {
+    const tinygltf::Node& node = element(model_.nodes, index, "nodes");
     const auto i = static_cast<std::size_t>(index);
-    if (index < 0 || i >= model_.nodes.size())
-      throw FormatFault(fmt::format("nodes[{}] does not exist", index));
     if (visited_[i]) throw FormatFault(fmt::format("nodes[{}] has more than one parent", index));
     visited_[i] = true;
-    const tinygltf::Node& node = model_.nodes[i];
     const glm::dmat4 node_to_file = parent_to_file * node_matrix(node);
     if (node.mesh >= 0) add_mesh(node, node_to_file);
     if (lights_ != nullptr) lights_->take(model_, i, node_to_file);
@@ -258,11 +257,9 @@ class NodeWalk {
   }
 
   void add_mesh(const tinygltf::Node& node, const glm::dmat4& node_to_file) {
-    const auto index = static_cast<std::size_t>(node.mesh);
-    if (index >= model_.meshes.size()) throw FormatFault(fmt::format("meshes[{}] does not exist", node.mesh));
-    const tinygltf::Mesh& source = model_.meshes[index];
+    const tinygltf::Mesh& source = element(model_.meshes, node.mesh, "meshes");
     const std::string& name = node.name.empty() ? source.name : node.name;
-    auto& primitives = meshes_[index];
+    auto& primitives = meshes_[static_cast<std::size_t>(node.mesh)];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
       if (primitives.size() == p) primitives.push_back(read(source.primitives[p], name));
       parts_.add(name, primitives[p], node_to_file, base_color(model_, source.primitives[p].material));
