@@ -107,7 +107,8 @@ void append_tile(const TileStatistics& tile, std::vector<std::byte>& bytes) {
 }
 
 bool begins_as_part(std::span<const std::byte> bytes) {
-  return std::memcmp(bytes.data(), kPartMagic.data(), std::min(bytes.size(), kPartMagic.size())) == 0;
+  const auto magic = std::as_bytes(std::span(kPartMagic)).first(std::min(bytes.size(), kPartMagic.size()));
+  return std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
 std::optional<PartScan> scan_part(std::span<const std::byte> bytes) {

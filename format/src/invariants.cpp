@@ -117,6 +117,9 @@ Verdict check_view(const View& view, const VertexCoding& coding) {
   const double largest = std::max(std::abs(near_depth), std::abs(far_depth));
   if (!(depth_step(view, coding) >= largest * kStepRoundings))
     return violation("near and far further apart, for depth codes to differ");
+  // As above: a look-up multiplies a distance of near by the codes per metre.
+  if (!std::isfinite(coding.depth_max() / (far_depth - near_depth)))
+    return violation("near and far further apart, for finite depth codes per metre");
   if (view.width < 1 || view.width > kMaxViewSize || view.height < 1 || view.height > kMaxViewSize)
     return violation("width and height of 1 to 2^20 texels");
   return {};

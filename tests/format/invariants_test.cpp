@@ -72,6 +72,15 @@ TEST(Invariants, NearAndFar) {
   map.views[0].projection = Projection::orthographic;
   map.views[0].near_depth = -4;
   EXPECT_EQ(find_invariant_fault(map), "");
+  // 65535 or 2^32 - 1 codes are a finite number a metre over 2^-980 m, and none over 2^-1020 m.
+  map.views[0].near_depth = 0;
+  map.views[0].far_depth = 0x1p-980;
+  EXPECT_EQ(find_invariant_fault(map), "");
+  expect_fault("views[0]", [](PenumbraMap& wrong) {
+    wrong.views[0].projection = Projection::orthographic;
+    wrong.views[0].near_depth = 0;
+    wrong.views[0].far_depth = 0x1p-1020;
+  });
 }
 
 TEST(Invariants, WindowAndSize) {

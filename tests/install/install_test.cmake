@@ -11,10 +11,16 @@ endfunction()
 file(REMOVE_RECURSE ${SCRATCH})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
 
+# What was built with sanitizers links with them alone.
+set(flags "")
+if(SANITIZE)
+  set(flags -fsanitize=${SANITIZE})
+endif()
+
 # build_example(NAME): into SCRATCH/NAME, knowing nothing but the installed package.
 function(build_example name)
   run(${CMAKE_COMMAND} -S ${EXAMPLES}/${name} -B ${SCRATCH}/${name} -G ${GENERATOR}
-      -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+      -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags})
   run(${CMAKE_COMMAND} --build ${SCRATCH}/${name})
 endfunction()
 build_example(look_up)
