@@ -134,6 +134,14 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
   return named ? name.C_Str() : "";
 }
 
+/// The names of a node and its parents.
+std::vector<std::string> node_names(const aiNode* node) {
+  std::vector<std::string> names;
+  for (; node != nullptr && names.size() < kMostNodeNames; node = node->mParent)
+    names.emplace_back(node->mName.C_Str());
+  return names;
+}
+
 /// Adds the meshes of all nodes, depth first.
 void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector& parts) {
   std::vector<std::shared_ptr<const Mesh>> meshes(scene.mNumMeshes);
@@ -146,12 +154,13 @@ void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector&
     for (const unsigned index : std::span(node->mMeshes, node->mNumMeshes)) {
       if (index >= scene.mNumMeshes) continue;
       const aiMesh& mesh = *scene.mMeshes[index];
+      const PartNames names{node_names(node), material_name(scene, mesh)};
       if (!meshes[index]) {
         Mesh raw = to_mesh(mesh);
         cutouts.cut_out(mesh, raw);
-        meshes[index] = parts.clean(raw, node->mName.C_Str(), material_name(scene, mesh));
+        meshes[index] = parts.clean(raw, names);
       }
-      parts.add(node->mName.C_Str(), meshes[index], node_to_file, base_color(scene, mesh));
+      parts.add(names, meshes[index], node_to_file, base_color(scene, mesh));
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], node_to_file);
   }

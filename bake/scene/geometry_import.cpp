@@ -38,13 +38,12 @@ double determinant(const glm::dmat4& m) {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> PartCollector::clean(const Mesh& raw, const std::string& node_name,
-                                                 const std::string& material) {
+std::shared_ptr<const Mesh> PartCollector::clean(const Mesh& raw, const PartNames& names) {
   ++meshes_;
   LeftOut left_out;
   auto mesh = std::make_shared<Mesh>(clean_mesh(raw, left_out));
   if (left_out.total() > 0)
-    leave_out(left_out, material.empty() ? node_name : node_name + " (" + material + ")");
+    leave_out(left_out, names.material.empty() ? names.node() : names.node() + " (" + names.material + ")");
   return mesh;
 }
 
@@ -64,22 +63,23 @@ void PartCollector::warn(const std::string& text) {
   if (std::ranges::find(file_.warnings, text) == file_.warnings.end()) file_.warnings.push_back(text);
 }
 
-void PartCollector::add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,
+void PartCollector::add(const PartNames& names, const std::shared_ptr<const Mesh>& mesh,
                         const glm::dmat4& local_to_file, const std::optional<glm::vec3>& base_color) {
   if (mesh->triangles.empty()) return;
   const double volume = determinant(local_to_file);
   if (volume == 0 || !std::isfinite(volume)) {
     LeftOut left_out;
     (volume == 0 ? left_out.no_area : left_out.not_finite) = mesh->triangles.size();
-    leave_out(left_out, node_name);
+    leave_out(left_out, names.node());
     return;
   }
   Geometry part;
-  part.name = node_name;
+  part.name = names.node();
   part.mesh = mesh;
   part.local_to_world = local_to_file;
   if (base_color) part.base_color = *base_color;
   file_.parts.push_back(std::move(part));
+  file_.names.push_back(names);
 }
 
 ImportedFile PartCollector::take() {

@@ -11,6 +11,7 @@
 #include "pdsm/bake/scene.h"
 #include "scene/file_source.h"
 #include "scene/mesh_cleanup.h"
+#include "scene/part_names.h"
 
 namespace pdsm {
 
@@ -18,7 +19,8 @@ class GltfLights;
 
 /// What one geometry file holds.
 struct ImportedFile {
-  std::vector<Geometry> parts;  ///< without triangles: none
+  std::vector<Geometry> parts;   ///< without triangles: none
+  std::vector<PartNames> names;  ///< one a part
   LeftOut left_out;
   std::vector<std::string>
       left_out_of;                    ///< nodes and materials that had those, each once, where there are more
@@ -50,9 +52,8 @@ class PartCollector {
  public:
   explicit PartCollector(std::string file_name) : file_name_(std::move(file_name)) {}
 
-  /// Cleans a mesh for any number of parts; `node_name` and `material` are for the warning.
-  [[nodiscard]] std::shared_ptr<const Mesh> clean(const Mesh& raw, const std::string& node_name,
-                                                  const std::string& material);
+  /// Cleans a mesh for any number of parts; the names, of the first, are for the warning.
+  [[nodiscard]] std::shared_ptr<const Mesh> clean(const Mesh& raw, const PartNames& names);
 
   /// Counts triangles that the file's reader has left out itself.
   void add_left_out(const LeftOut& left_out);
@@ -61,8 +62,8 @@ class PartCollector {
   void warn(const std::string& text);
 
   /// Adds a part. One without triangles is passed over; one that its node flattens counts as left out.
-  void add(const std::string& node_name, const std::shared_ptr<const Mesh>& mesh,
-           const glm::dmat4& local_to_file, const std::optional<glm::vec3>& base_color);
+  void add(const PartNames& names, const std::shared_ptr<const Mesh>& mesh, const glm::dmat4& local_to_file,
+           const std::optional<glm::vec3>& base_color);
 
   /// Everything gathered; parts are named "file", or "file:node" when there are several.
   [[nodiscard]] ImportedFile take();

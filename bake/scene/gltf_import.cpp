@@ -215,6 +215,13 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
   return roots;
 }
 
+/// A node that is still to be visited.
+struct OpenNode {
+  int index = 0;
+  glm::dmat4 parent_to_file{1.0};
+  std::vector<std::string> parents;  ///< their names, the nearest first
+};
+
 /// Walks the node hierarchy and hands over each mesh's primitives, and lights if they are wanted; a mesh is
 /// read once.
 class NodeWalk {
@@ -228,41 +235,47 @@ class NodeWalk {
         meshes_(model.meshes.size()) {}
 
   void run() {
-    for (const int root : root_nodes(model_)) open_.emplace_back(root, glm::dmat4(1.0));
+    for (const int root : root_nodes(model_)) open_.push_back({root, glm::dmat4(1.0), {}});
     std::ranges::reverse(open_);
     while (!open_.empty()) {
-      const auto [index, parent_to_file] = open_.back();
+      const OpenNode next = std::move(open_.back());
       open_.pop_back();
-      visit(index, parent_to_file);
+      visit(next);
     }
   }
 
  private:
-  void visit(int index, const glm::dmat4& parent_to_file) {
-    const tinygltf::Node& node = element(model_.nodes, index, "nodes");
-    const auto i = static_cast<std::size_t>(index);
-    if (visited_[i]) throw FormatFault(fmt::format("nodes[{}] has more than one parent", index));
+  void visit(const OpenNode& open) {
+    const tinygltf::Node& node = element(model_.nodes, open.index, "nodes");
+    const auto i = static_cast<std::size_t>(open.index);
+    if (visited_[i]) throw FormatFault(fmt::format("nodes[{}] has more than one parent", open.index));
     visited_[i] = true;
-    const glm::dmat4 node_to_file = parent_to_file * node_matrix(node);
-    if (node.mesh >= 0) add_mesh(node, node_to_file);
+    const glm::dmat4 node_to_file = open.parent_to_file * node_matrix(node);
+    std::vector<std::string> names{node.name};
+    names.insert(names.end(), open.parents.begin(), open.parents.end());
+    if (names.size() > kMostNodeNames) names.pop_back();
+    if (node.mesh >= 0) add_mesh(node, names, node_to_file);
     if (lights_ != nullptr) lights_->take(model_, i, node_to_file);
     for (std::size_t child = node.children.size(); child-- > 0;)
-      open_.emplace_back(node.children[child], node_to_file);
+      open_.push_back({node.children[child], node_to_file, names});
   }
 
-  std::shared_ptr<const Mesh> read(const tinygltf::Primitive& primitive, const std::string& node_name) {
+  std::shared_ptr<const Mesh> read(const tinygltf::Primitive& primitive, const PartNames& names) {
     Mesh mesh = to_mesh(model_, primitive);
     cutouts_.cut_out(primitive, mesh);
-    return parts_.clean(mesh, node_name, material_name(model_, primitive.material));
+    return parts_.clean(mesh, names);
   }
 
-  void add_mesh(const tinygltf::Node& node, const glm::dmat4& node_to_file) {
+  void add_mesh(const tinygltf::Node& node, const std::vector<std::string>& nodes,
+                const glm::dmat4& node_to_file) {
     const tinygltf::Mesh& source = element(model_.meshes, node.mesh, "meshes");
-    const std::string& name = node.name.empty() ? source.name : node.name;
+    PartNames names{nodes, ""};
+    if (node.name.empty()) names.nodes.front() = source.name;
     auto& primitives = meshes_[static_cast<std::size_t>(node.mesh)];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
-      if (primitives.size() == p) primitives.push_back(read(source.primitives[p], name));
-      parts_.add(name, primitives[p], node_to_file, base_color(model_, source.primitives[p].material));
+      names.material = material_name(model_, source.primitives[p].material);
+      if (primitives.size() == p) primitives.push_back(read(source.primitives[p], names));
+      parts_.add(names, primitives[p], node_to_file, base_color(model_, source.primitives[p].material));
     }
   }
 
@@ -272,7 +285,7 @@ class NodeWalk {
   GltfLights* lights_;
   std::vector<bool> visited_;
   std::vector<std::vector<std::shared_ptr<const Mesh>>> meshes_;
-  std::vector<std::pair<int, glm::dmat4>> open_;
+  std::vector<OpenNode> open_;
 };
 
 }  // namespace

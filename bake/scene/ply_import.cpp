@@ -155,7 +155,7 @@ ImportedFile import_ply(const std::filesystem::path& name, const std::string& by
     LeftOut left_out;
     const Mesh mesh = read_mesh(bytes, left_out);
     parts.add_left_out(left_out);
-    parts.add("", parts.clean(mesh, "", ""), glm::dmat4(1.0), std::nullopt);
+    parts.add({}, parts.clean(mesh, {}), glm::dmat4(1.0), std::nullopt);
   } catch (const FormatFault& fault) {
     throw Error(Failure::input, name.string(), fault.what());
   }

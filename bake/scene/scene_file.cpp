@@ -20,6 +20,7 @@
 #include "scene/json_fields.h"
 #include "scene/light_check.h"
 #include "scene/one_line.h"
+#include "scene/part_rules.h"
 #include "scene/placement.h"
 #include "scene/read_light.h"
 
@@ -43,7 +44,7 @@ class SceneReader {
   void read_json();
   void read_gltf();
   void read_geometry(const json& node, std::size_t index);
-  const std::vector<Geometry>& import(const JsonFields& fields);
+  const ImportedFile& import(const JsonFields& fields);
   void read_lights(const json& nodes);
   std::shared_ptr<const EmissionImage> read_picture(const JsonFields& fields);
   void warn_of(const ImportedFile& file, const std::string& name);
@@ -51,7 +52,7 @@ class SceneReader {
   fs::path path_;
   std::string file_;
   FileSource files_;
-  std::map<fs::path, std::vector<Geometry>> imported_;
+  std::map<fs::path, ImportedFile> imported_;
   Scene scene_;
 };
 
@@ -77,7 +78,7 @@ void check_opacity(const JsonFields& fields) {
   if (opacity != 1) fields.refuse("opacity", "other than 1: not supported yet");
 }
 
-const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
+const ImportedFile& SceneReader::import(const JsonFields& fields) {
   const std::string name = fields.text("file");
   if (name.empty() || name.find('\0') != std::string::npos) fields.refuse("file", "must name a file");
   const fs::path path = path_.parent_path() / fs::path(name);
@@ -86,7 +87,7 @@ const std::vector<Geometry>& SceneReader::import(const JsonFields& fields) {
   try {
     ImportedFile file = import_file(files_, path);
     warn_of(file, name);
-    return imported_.emplace(path, std::move(file.parts)).first->second;
+    return imported_.emplace(path, std::move(file)).first->second;
   } catch (const Error& fault) {
     throw Error(fault.failure(), file_ + ":" + fields.path_of("file"), fault.what());
   }
@@ -100,7 +101,7 @@ void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
 
 void SceneReader::read_geometry(const json& node, std::size_t index) {
   const JsonFields fields(node, file_, join_path("geometry", index));
-  fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity"});
+  fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity", "parts"});
   check_opacity(fields);
   const auto vector_or_zero = [&](const char* key) {
     return fields.has(key) ? fields.vector(key) : glm::dvec3(0);
@@ -109,13 +110,15 @@ void SceneReader::read_geometry(const json& node, std::size_t index) {
       placement_matrix(read_scale(fields), vector_or_zero("rotate"), vector_or_zero("translate"));
   const bool casts = !fields.has("casts") || fields.boolean("casts");
   const bool receives = !fields.has("receives") || fields.boolean("receives");
-  std::vector<Geometry> parts = import(fields);
+  const ImportedFile& file = import(fields);
+  std::vector<Geometry> parts = file.parts;
   place(parts, placement);
   for (Geometry& part : parts) {
     part.casts = casts;
     part.receives = receives;
-    scene_.geometry.push_back(std::move(part));
   }
+  apply_part_rules(fields, file.names, parts);
+  std::ranges::move(parts, std::back_inserter(scene_.geometry));
 }
 
 std::shared_ptr<const EmissionImage> SceneReader::read_picture(const JsonFields& fields) {

@@ -48,6 +48,14 @@ TEST(Schema, ListsTheKeysOfGeometry) {
   EXPECT_EQ(keys_told(folder.fault_of(R"({"geometry": [{"?": 1}]})")), listed);
 }
 
+TEST(Schema, ListsTheKeysOfPartRules) {
+  const SceneFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  Keys listed;
+  add_keys(listed, schema()["$defs"]["part"]["properties"]);
+  EXPECT_EQ(keys_told(folder.fault_of(scene_of("a.obj", R"("parts": [{"?": 1}])"))), listed);
+}
+
 TEST(Schema, ListsTheKeysOfLights) {
   const SceneFolder folder;
   const nlohmann::json light = schema()["$defs"]["light"];
