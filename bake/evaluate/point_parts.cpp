@@ -15,9 +15,10 @@
 namespace pdsm {
 namespace {
 
-/// The map's bake without fit: every event where it is, on all depths.
-BakeOptions without_fit(BakeOptions options) {
-  options.epsilon = 0;
+/// The map's bake without fit: every event where it is, on all depths. Translucent casters take away what is
+/// no count of samples, so that theirs is next to it.
+BakeOptions without_fit(const Scene& scene, BakeOptions options) {
+  options.epsilon = std::ranges::any_of(scene.geometry, is_translucent_caster) ? kLeastLossyEpsilon : 0;
   options.depth_tolerance = 0;
   options.mip_levels = 0;
   if (options.receivers == Receivers::surfaces) options.receivers = Receivers::volume;
@@ -81,7 +82,7 @@ PointParts measure_point_parts(const PenumbraMap& map, const Scene& scene, const
   std::vector<double> unfitted, unrounded = looked_up;
   SampleRayValues rays;
   {
-    const BakeJob job(scene, light, without_fit(options));
+    const BakeJob job(scene, light, without_fit(scene, options));
     check_same(map, job);
     const QuadAnswers answers = ask_bake(job, quads);
     unfitted = answers.mixed();

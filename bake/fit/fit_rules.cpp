@@ -16,7 +16,7 @@ constexpr double kRoundingSlack = 1;
 
 void choose_value_coding(FitRules& rules) {
   const double width = 2 * rules.epsilon;
-  rules.constant_pieces = width * 65535 < kLeastTubeCodes;
+  rules.constant_pieces = is_lossless(rules.epsilon);
   if (rules.constant_pieces) {
     rules.coding.value_max = rules.sample_count;
     rules.coding.value_bits = rules.sample_count <= 0xFF ? 8 : rules.sample_count <= 0xFFFF ? 16 : 32;
@@ -41,6 +41,8 @@ void choose_bounds(FitRules& rules) {
   const auto scale = static_cast<double>(kValueScale);
   rules.half_width = scale * rules.value_codes * rules.epsilon;
   rules.quantum = scale / 2 + kRoundingSlack;
+  if (rules.transmittance_unit > 1)
+    rules.quantum += scale * rules.value_codes / (2.0 * rules.transmittance_unit);
   if (!rules.constant_pieces) return;
   // Counts are codes already; what lies between two has the nearest.
   rules.half_width = std::max(rules.half_width, scale / 2);
@@ -57,16 +59,21 @@ void fill_tables(FitRules& rules) {
 
 }  // namespace
 
-FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon,
-                        double depth_tolerance) {
+bool is_lossless(double epsilon) {
+  return 2 * epsilon * 65535 < kLeastTubeCodes;
+}
+
+FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon, double depth_tolerance,
+                        std::uint32_t transmittance_unit) {
   FitRules rules;
-  rules.sample_count = sample_count;
+  rules.sample_count = sample_count * transmittance_unit;
+  rules.transmittance_unit = transmittance_unit;
   rules.epsilon = epsilon;
   choose_value_coding(rules);
   rules.value_codes = rules.coding.value_max;
   choose_depth_coding(view, depth_tolerance, rules);
   choose_bounds(rules);
-  fill_tables(rules);
+  if (transmittance_unit == 1) fill_tables(rules);
   return rules;
 }
 
@@ -79,6 +86,8 @@ void write_unrounded(FitRules& rules) {
 
 FitRules make_level_rules(const FitRules& rules, std::uint32_t level) {
   FitRules of_level = rules;
+  // Sums of transmittances are scaled down to the base's unit.
+  if (rules.transmittance_unit > 1) return of_level;
   of_level.sample_count = rules.sample_count << (2 * level);
   // Tables of 4^6 N counts would take gigabytes.
   of_level.lower.clear();

@@ -30,13 +30,16 @@ struct FitRules {
   std::uint32_t value_codes = 255;
   std::int64_t code_scale = kValueScale;  ///< scaled values that a written code holds
   std::uint32_t sample_count = 1;  ///< V = count / sample_count; of a mip level: of all its children together
-  double epsilon = 0;              ///< bound on V
-  double tolerance = 0;            ///< delta, metres, after raising it to what the coding can hold
-  double tolerance_codes = 0;      ///< delta in depth codes, >= 1/2
+  /// Counts that a light sample holds: of translucent casters' bakes transmittances are rounded to 1 / this,
+  /// and level's counts to those of the base.
+  std::uint32_t transmittance_unit = 1;
+  double epsilon = 0;          ///< bound on V
+  double tolerance = 0;        ///< delta, metres, after raising it to what the coding can hold
+  double tolerance_codes = 0;  ///< delta in depth codes, >= 1/2
   double near_depth = 0, codes_per_metre = 0;
   bool constant_pieces = false;            ///< lossless: values are counts, pieces are steps
   double half_width = 0, quantum = 0;      ///< scaled value codes: epsilon, and what rounding takes of it
-  std::vector<std::int64_t> lower, upper;  ///< bounds_of() each count; empty for a mip level, which has many
+  std::vector<std::int64_t> lower, upper;  ///< bounds_of() each count; empty where there are many
 
   /// Bounds for V = count / sample_count, quantisation taken off: a line within them stays within epsilon
   /// when its ends are rounded to codes.
@@ -66,7 +69,12 @@ struct FitRules {
 ///           bits: counts of N, exact, as wide as N needs
 ///   depths  16 bits while two steps are within delta, else 32
 [[nodiscard]] FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon,
-                                      double depth_tolerance);
+                                      double depth_tolerance, std::uint32_t transmittance_unit = 1);
+
+/// Whether make_fit_rules() makes lossless ones, whose values are counts of light samples.
+[[nodiscard]] bool is_lossless(double epsilon);
+/// An epsilon that isn't, next to the greatest that is.
+inline constexpr double kLeastLossyEpsilon = 3.1e-5;
 
 /// Has values written in scaled values instead of codes: the same tube and pieces, with their ends as the
 /// fit has them. Tells what rounding adds. Lossless values are whole codes and stay as they are.

@@ -101,7 +101,7 @@ class VertexSet {
 enum class Role { receiver, caster };
 
 bool has_role(const Geometry& geometry, Role role) {
-  return geometry.mesh && (role == Role::caster ? geometry.casts : geometry.receives);
+  return geometry.mesh && (role == Role::caster ? casts_shadows(geometry) : geometry.receives);
 }
 
 /// Cuts `region` to depths from z0 to z1.

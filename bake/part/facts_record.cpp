@@ -23,7 +23,8 @@ enum FactFlag : std::uint32_t {
   kHasCutouts = 128,
   kHasEmission = 256,
   kHasBlockKeys = 512,
-  kAllFlags = 1023
+  kHasTranslucency = 1024,
+  kAllFlags = 2047
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -32,7 +33,8 @@ std::uint32_t flags_of(const BakeFacts& facts) {
          bit(facts.fitted.far_fitted, kFarFitted) | bit(facts.fitted.nothing_casts, kNothingCasts) |
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
          bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
-         bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys);
+         bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys) |
+         bit(facts.has_translucency, kHasTranslucency);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -45,6 +47,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.shift_law = (flags & kShiftLaw) != 0;
   facts.has_cutouts = (flags & kHasCutouts) != 0;
   facts.has_emission = (flags & kHasEmission) != 0;
+  facts.has_translucency = (flags & kHasTranslucency) != 0;
   facts.has_block_keys = (flags & kHasBlockKeys) != 0;
 }
 

@@ -29,4 +29,8 @@ enum class WithoutAlpha { opaque, brightness };
 [[nodiscard]] std::shared_ptr<const CutoutMask> make_mask(AlphaImage image,
                                                           const std::array<MaskWrap, 2>& wrap, double cutoff);
 
+/// The mask of a surface whose opacity is `image`'s alpha. Null where all of it is opaque.
+[[nodiscard]] std::shared_ptr<const CutoutMask> make_blend(AlphaImage image,
+                                                           const std::array<MaskWrap, 2>& wrap);
+
 }  // namespace pdsm

@@ -51,6 +51,18 @@ void AssimpCutouts::cut_out(const aiMesh& source, Mesh& mesh) {
   }
 }
 
+double AssimpCutouts::opacity(const aiMesh& source) const {
+  const unsigned index = source.mMaterialIndex;
+  if (!has_extension(name_, ".obj") || index >= scene_.mNumMaterials) return 1;
+  const aiMaterial& material = *scene_.mMaterials[index];
+  float opacity = 1;
+  if (material.GetTextureCount(aiTextureType_OPACITY) > 0 ||
+      material.Get(AI_MATKEY_OPACITY, opacity) != aiReturn_SUCCESS)
+    return 1;
+  if (opacity >= 0 && opacity <= 1) return static_cast<double>(opacity);
+  throw Error(Failure::input, name_.string() + ":" + name_of(material, index), "d must be from 0 to 1");
+}
+
 std::shared_ptr<const CutoutMask> AssimpCutouts::read_mask(const aiMaterial& material) {
   aiString path;
   std::array<aiTextureMapMode, 2> modes{aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};

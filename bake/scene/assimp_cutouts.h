@@ -24,6 +24,10 @@ class AssimpCutouts {
   /// cut out. Throws Error (input) "file:material: reason".
   void cut_out(const aiMesh& source, Mesh& mesh);
 
+  /// The opacity of a mesh's material, besides its mask: `d`, or 1 - `Tr`, of an OBJ file's material without
+  /// map_d.
+  [[nodiscard]] double opacity(const aiMesh& source) const;
+
  private:
   [[nodiscard]] std::shared_ptr<const CutoutMask> read_mask(const aiMaterial& material);
 

@@ -63,7 +63,7 @@ class PartCollector {
 
   /// Adds a part. One without triangles is passed over; one that its node flattens counts as left out.
   void add(const PartNames& names, const std::shared_ptr<const Mesh>& mesh, const glm::dmat4& local_to_file,
-           const std::optional<glm::vec3>& base_color);
+           const std::optional<glm::vec3>& base_color, double opacity = 1);
 
   /// Everything gathered; parts are named "file", or "file:node" when there are several.
   [[nodiscard]] ImportedFile take();

@@ -49,6 +49,16 @@ std::string image_name(const tinygltf::Image& image, int index) {
   return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
 }
 
+constexpr const char* kBlend = "BLEND";
+
+/// baseColorFactor's alpha.
+double opacity_of(const tinygltf::Material& material) {
+  const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
+  const double opacity = factor.size() == 4 ? factor[3] : 1;
+  if (!(opacity >= 0 && opacity <= 1)) throw FormatFault("baseColorFactor must be from 0 to 1");
+  return opacity;
+}
+
 }  // namespace
 
 struct GltfCutouts::Cutout {
@@ -60,7 +70,8 @@ void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
   if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= model_.materials.size())
     return;
   const auto material = static_cast<std::size_t>(primitive.material);
-  if (model_.materials[material].alphaMode != "MASK" || mesh.positions.empty()) return;
+  const std::string& mode = model_.materials[material].alphaMode;
+  if ((mode != "MASK" && mode != kBlend) || mesh.positions.empty()) return;
   try {
     const Cutout& cutout = cutout_of(material);
     if (!cutout.mask) return;
@@ -74,6 +85,17 @@ void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
   }
 }
 
+double GltfCutouts::opacity(int material) const {
+  if (material < 0 || static_cast<std::size_t>(material) >= model_.materials.size()) return 1;
+  const auto index = static_cast<std::size_t>(material);
+  if (model_.materials[index].alphaMode != kBlend) return 1;
+  try {
+    return opacity_of(model_.materials[index]);
+  } catch (const FormatFault& fault) {
+    throw Error(Failure::input, name_.string() + ":" + name_of(index), one_line(fault.what()));
+  }
+}
+
 const GltfCutouts::Cutout& GltfCutouts::cutout_of(std::size_t material) {
   auto& cutout = cutouts_[material];
   if (!cutout)
@@ -83,13 +105,14 @@ const GltfCutouts::Cutout& GltfCutouts::cutout_of(std::size_t material) {
 
 GltfCutouts::Cutout GltfCutouts::read_cutout(const tinygltf::Material& material, const std::string& where) {
   const auto& base = material.pbrMetallicRoughness;
-  const double opacity = base.baseColorFactor.size() == 4 ? base.baseColorFactor[3] : 1;
-  if (!(opacity >= 0 && opacity <= 1)) throw FormatFault("baseColorFactor must be from 0 to 1");
+  const bool blends = material.alphaMode == kBlend;
+  const double opacity = opacity_of(material);
   if (!(material.alphaCutoff >= 0)) throw FormatFault("alphaCutoff must be 0 or more");
   // Alpha times opacity is at least the cutoff where alpha is at least this.
   const double cutoff = opacity > 0                ? material.alphaCutoff / opacity
                         : material.alphaCutoff > 0 ? HUGE_VAL
                                                    : 0;
+  if (blends && base.baseColorTexture.index < 0) return {};
   if (base.baseColorTexture.index < 0) return {make_mask({1, 1, {255}, true}, {}, cutoff), {}};
   const tinygltf::Texture& texture = element(model_.textures, base.baseColorTexture.index, "textures");
   if (texture.source < 0) throw FormatFault("its texture has no image that can be read");
@@ -103,6 +126,7 @@ GltfCutouts::Cutout GltfCutouts::read_cutout(const tinygltf::Material& material,
   }
   try {
     AlphaImage alpha = read_alpha(image_bytes(image), WithoutAlpha::opaque);
+    if (blends) return {make_blend(std::move(alpha), wrap), places};
     if (!alpha.has_alpha)
       parts_.warn(fmt::format("{}: image {} has no alpha channel: nothing is cut out", where, name));
     return {make_mask(std::move(alpha), wrap, cutoff), places};

@@ -12,7 +12,7 @@
 
 namespace pdsm {
 
-/// What the materials of a glTF file cut out of its meshes (alphaMode MASK).
+/// What the materials of a glTF file cut out of its meshes (alphaMode MASK), and how opaque they are (BLEND).
 class GltfCutouts {
  public:
   /// Borrows all but the name. Warnings go to `parts`.
@@ -20,9 +20,13 @@ class GltfCutouts {
               PartCollector& parts)
       : files_(files), name_(std::move(name)), model_(model), parts_(parts) {}
 
-  /// Gives the mesh of a primitive the mask of its material and its places there, if anything is cut out.
+  /// Gives the mesh of a primitive the mask of its material and its places there, if anything is cut out or
+  /// blends.
   /// Throws Error (input) "file:material: reason".
   void cut_out(const tinygltf::Primitive& primitive, Mesh& mesh);
+
+  /// The opacity of a material, besides what its mask says. Throws as cut_out() does.
+  [[nodiscard]] double opacity(int material) const;
 
  private:
   struct Cutout;

@@ -273,9 +273,11 @@ class NodeWalk {
     if (node.name.empty()) names.nodes.front() = source.name;
     auto& primitives = meshes_[static_cast<std::size_t>(node.mesh)];
     for (std::size_t p = 0; p < source.primitives.size(); ++p) {
-      names.material = material_name(model_, source.primitives[p].material);
+      const int material = source.primitives[p].material;
+      names.material = material_name(model_, material);
       if (primitives.size() == p) primitives.push_back(read(source.primitives[p], names));
-      parts_.add(names, primitives[p], node_to_file, base_color(model_, source.primitives[p].material));
+      parts_.add(names, primitives[p], node_to_file, base_color(model_, material),
+                 cutouts_.opacity(material));
     }
   }
 

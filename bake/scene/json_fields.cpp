@@ -88,6 +88,12 @@ double JsonFields::not_negative(std::string_view key) const {
   return number(key);
 }
 
+double JsonFields::share(std::string_view key) const {
+  const double value = number(key);
+  if (!(value >= 0 && value <= 1)) refuse(key, "must be a number from 0 to 1");
+  return value;
+}
+
 glm::dvec3 JsonFields::vector(std::string_view key) const {
   const json& value = require(key);
   const bool good = value.is_array() && value.size() == 3 &&

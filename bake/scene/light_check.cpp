@@ -43,7 +43,7 @@ bool contains(const Geometry& geometry, const glm::dvec3& p) {
 void warn_if_inside(Scene& scene, const Light& light) {
   if (is_distant(light)) return;
   for (const Geometry& geometry : scene.geometry) {
-    if (!geometry.casts || !geometry.mesh->closed || !contains(geometry, light.position)) continue;
+    if (!casts_shadows(geometry) || !geometry.mesh->closed || !contains(geometry, light.position)) continue;
     scene.warnings.push_back(light.name + ": the light lies inside " + geometry.name);
   }
 }

@@ -8,6 +8,11 @@
 
 namespace pdsm {
 
+void check_opacity(const Geometry& geometry) {
+  if (!(geometry.opacity >= 0 && geometry.opacity <= 1))
+    throw Error(Failure::input, geometry.name + ":opacity", "must be from 0 to 1");
+}
+
 void check_mask(const Mesh& mesh, const std::string& name) {
   const auto require = [&](bool holds, const std::string& reason) {
     if (!holds) throw Error(Failure::input, name + ":mask", reason);

@@ -6,7 +6,8 @@
 
 namespace pdsm {
 
-/// Of how many nodes a part knows the names, its own included. A bound, for hostile files nest them without end.
+/// Of how many nodes a part knows the names, its own included. A bound, for hostile files nest them without
+/// end.
 inline constexpr std::size_t kMostNodeNames = 64;
 
 /// What a part of a geometry file is called there; any name may be empty.

@@ -19,6 +19,7 @@ bool fits(const std::string& pattern, const std::string& name) {
 struct PartRule {
   std::optional<std::string> node, material;
   std::optional<bool> casts, receives;
+  std::optional<double> opacity;
 
   [[nodiscard]] bool fits_part(const PartNames& names) const {
     const auto fits_node = [this](const std::string& name) { return fits(*node, name); };
@@ -41,11 +42,16 @@ std::optional<bool> read_switch(const JsonFields& fields, const char* key) {
 }
 
 PartRule read_rule(const JsonFields& fields) {
-  fields.allow_only({"node", "material", "casts", "receives"});
-  PartRule rule{read_pattern(fields, "node"), read_pattern(fields, "material"), read_switch(fields, "casts"),
-                read_switch(fields, "receives")};
+  fields.allow_only({"node", "material", "casts", "receives", "opacity"});
+  PartRule rule{read_pattern(fields, "node"),
+                read_pattern(fields, "material"),
+                read_switch(fields, "casts"),
+                read_switch(fields, "receives"),
+                {}};
   if (!rule.node && !rule.material) fields.refuse("node", "or material must tell what the rule is for");
-  if (!rule.casts && !rule.receives) fields.refuse("casts", "or receives must be there");
+  if (fields.has("opacity")) rule.opacity = fields.share("opacity");
+  if (!rule.casts && !rule.receives && !rule.opacity)
+    fields.refuse("casts", "or receives or opacity must be there");
   return rule;
 }
 
@@ -64,6 +70,7 @@ void apply_part_rules(const JsonFields& fields, const std::vector<PartNames>& na
       any = true;
       parts[p].casts = rule.casts.value_or(parts[p].casts);
       parts[p].receives = rule.receives.value_or(parts[p].receives);
+      parts[p].opacity = rule.opacity.value_or(parts[p].opacity);
     }
     if (!any) throw Error(Failure::input, fields.file() + ":" + path, "fits no part of the file");
   }

@@ -70,14 +70,6 @@ glm::dvec3 read_scale(const JsonFields& fields) {
   return scale;
 }
 
-/// Semi-opaque casters are refused rather than taken for opaque.
-void check_opacity(const JsonFields& fields) {
-  if (!fields.has("opacity")) return;
-  const double opacity = fields.number("opacity");
-  if (!(opacity >= 0 && opacity <= 1)) fields.refuse("opacity", "must be a number from 0 to 1");
-  if (opacity != 1) fields.refuse("opacity", "other than 1: not supported yet");
-}
-
 const ImportedFile& SceneReader::import(const JsonFields& fields) {
   const std::string name = fields.text("file");
   if (name.empty() || name.find('\0') != std::string::npos) fields.refuse("file", "must name a file");
@@ -102,7 +94,6 @@ void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
 void SceneReader::read_geometry(const json& node, std::size_t index) {
   const JsonFields fields(node, file_, join_path("geometry", index));
   fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity", "parts"});
-  check_opacity(fields);
   const auto vector_or_zero = [&](const char* key) {
     return fields.has(key) ? fields.vector(key) : glm::dvec3(0);
   };
@@ -110,12 +101,14 @@ void SceneReader::read_geometry(const json& node, std::size_t index) {
       placement_matrix(read_scale(fields), vector_or_zero("rotate"), vector_or_zero("translate"));
   const bool casts = !fields.has("casts") || fields.boolean("casts");
   const bool receives = !fields.has("receives") || fields.boolean("receives");
+  const double opacity = fields.has("opacity") ? fields.share("opacity") : 1;
   const ImportedFile& file = import(fields);
   std::vector<Geometry> parts = file.parts;
   place(parts, placement);
   for (Geometry& part : parts) {
     part.casts = casts;
     part.receives = receives;
+    part.opacity *= opacity;
   }
   apply_part_rules(fields, file.names, parts);
   std::ranges::move(parts, std::back_inserter(scene_.geometry));

@@ -26,8 +26,9 @@ struct BakeFacts {
   bool has_shadows = true;   ///< some function may be other than empty
   bool is_projected = true;  ///< maps are projected, not traced
   bool shift_law = true;
-  bool has_emission = false;  ///< the light has a picture
-  bool has_cutouts = false;   ///< some caster that the light can see has holes
+  bool has_emission = false;      ///< the light has a picture
+  bool has_cutouts = false;       ///< some caster that the light can see has holes
+  bool has_translucency = false;  ///< some caster that the light can see lets light through
   bool has_block_keys = false;
   double slope_limit_from = 0;  ///< SlopeLimit; infinite where no slope is limited
   std::uint64_t dropped_triangles = 0;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "events/transmittance_events.h"
 #include "pdsm/format/error.h"
 #include "tile/share_rect.h"
 #include "trace/map_rays.h"
@@ -115,15 +116,19 @@ BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& 
       grid(make_map_grid(fitted.view, options.map_width, options.map_height)) {
   check_samples(samples, fitted.view);
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
-  rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
-                         options.depth_tolerance.value_or(kToleranceShare * bias));
-  if (options.unrounded_values) write_unrounded(rules);
   mip_levels = count_mip_levels(options);
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
   // Samples that the caller brings may lie outside the light's shape, and see more.
   if (options.light_samples.empty()) keep_within(light_space, map_reach(light, grid));
   seconds_bvh = omp_get_wtime() - start;
+  const bool translucent = light_space.has_translucency();
+  require(!translucent || !is_lossless(options.epsilon), "--epsilon",
+          "too small for translucent casters, whose values are no counts: must be 3.1e-5 or more");
+  rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
+                         options.depth_tolerance.value_or(kToleranceShare * bias),
+                         translucent ? transmittance_unit(options.samples) : 1);
+  if (options.unrounded_values) write_unrounded(rules);
 }
 
 BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share)

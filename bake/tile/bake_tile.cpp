@@ -14,6 +14,7 @@
 #include "tile/sample_bias.h"
 #include "tile/shadow_cells.h"
 #include "trace/raster_map.h"
+#include "trace/trace_layers.h"
 #include "walk/general_walk.h"
 #include "walk/ray_packets.h"
 #include "walk/shift_walk.h"
@@ -27,6 +28,7 @@ constexpr unsigned kFlushDenormals = 0x8040;
 /// What one thread owns while walking.
 struct WalkThread {
   SampleMap map;
+  LayerMap layers;  ///< with translucent casters only
   DepthImage image;
   PacketMask mask;
   ShiftWalk shift;
@@ -79,6 +81,13 @@ TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count)
   return strip;
 }
 
+void trace_translucent(const TileInput& input, const LightSample& sample, const MapBias& bias,
+                       const PacketMask* mask, WalkThread& thread) {
+  if (!input.is_translucent()) return;
+  thread.statistics.rays += trace_layers(input.scene, input.grid, sample, bias, mask, thread.map,
+                                         input.rules.transmittance_unit, thread.layers, thread.slope_bias);
+}
+
 /// Traces what the rays of a strip look at in the map of one sample. By the shift law, only cells that may
 /// be darkened are looked at.
 void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
@@ -89,6 +98,7 @@ void trace_strip(const TileInput& input, const LightSample& sample, const TexelR
     thread.map.reset(general_footprint(input.grid, sample, strip), interleave);
     thread.statistics.rays +=
         trace_sample_map(input.scene, input.grid, sample, bias, nullptr, thread.map, thread.slope_bias);
+    trace_translucent(input, sample, bias, nullptr, thread);
     return;
   }
   thread.shift.list(input.grid, sample, input.walk);
@@ -107,7 +117,18 @@ void trace_strip(const TileInput& input, const LightSample& sample, const TexelR
                              thread.slope_bias)
           : raster_sample_map(input.scene, input.casters, input.grid, sample, bias, cells.idle_casters,
                               thread.mask, thread.image, thread.map, thread.slope_bias);
+  trace_translucent(input, sample, bias, &thread.mask, thread);
   thread.shift.bind(thread.map);
+}
+
+/// Walks all rays of a block through a sample's map: its SampleMap, or LayeredMap.
+template <typename Map>
+void walk_block(const TileInput& input, const LightSample& sample, const Map& map, const TileBlock& block,
+                WalkThread& thread, EventLog& log) {
+  if (input.shift_law)
+    thread.shift.walk(map, block.packets, log);
+  else
+    walk_general(input.grid, sample, input.walk, map, block.rect, block.domain_ends, thread.steps, log);
 }
 
 /// Walks all rays of a strip through the map of one sample.
@@ -116,11 +137,11 @@ void walk_strip(const TileInput& input, const LightSample& sample, const TexelRe
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const TileBlock& block = blocks[b];
     if (block.rect.y0 < strip.y0 || block.rect.y0 >= strip.y1) continue;
-    if (input.shift_law)
-      thread.shift.walk(thread.map, block.packets, thread.logs[b]);
+    if (input.is_translucent())
+      walk_block(input, sample, LayeredMap{thread.map, thread.layers, input.rules.transmittance_unit}, block,
+                 thread, thread.logs[b]);
     else
-      walk_general(input.grid, sample, input.walk, thread.map, block.rect, block.domain_ends, thread.steps,
-                   thread.logs[b]);
+      walk_block(input, sample, thread.map, block, thread, thread.logs[b]);
   }
 }
 

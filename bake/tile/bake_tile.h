@@ -35,6 +35,9 @@ struct TileInput {
   const CasterTriangles& casters;  ///< that maps are made from; none: they are traced
   std::vector<FitRules> level_rules = {};     ///< of mip levels 1, 2, ...; none where none are made
   const BlockInputs* block_inputs = nullptr;  ///< for the keys of blocks; null: they get none
+
+  /// Whether events are changes of transmittance (events/transmittance_events.h).
+  [[nodiscard]] bool is_translucent() const { return scene.translucent() != nullptr; }
 };
 
 /// What a tile did; sums over its threads.

@@ -42,7 +42,8 @@ class CasterLists {
     const BlockRange range = reach_.of({corners[0], corners[1], corners[2]});
     if (range.empty() || all_are_traced(range)) return;
     const auto hash = hash_caster(corners);
-    const bool is_traced = mesh.is_cutout_caster() || steep_.may_hold(corners);
+    const bool is_traced =
+        mesh.is_cutout_caster() || mesh.is_translucent_caster() || steep_.may_hold(corners);
     for_each_block(range, [&](BlockCasters& block) {
       block.casters.add(hash);
       block.is_traced = block.is_traced || is_traced;

@@ -15,7 +15,7 @@ namespace pdsm {
 /// The casters in reach of a block, or some of them.
 struct BlockCasters {
   ListHash casters;
-  /// What one leaves in maps is found by rays: it has holes, or its slope may be limited
+  /// What one leaves in maps is found by rays: it has holes, lets light through, or its slope may be limited
   /// (tile/steep_casters.h).
   bool is_traced = false;
 

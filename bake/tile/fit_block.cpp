@@ -41,11 +41,52 @@ std::vector<std::uint32_t> join_ends(const std::vector<std::uint32_t>& ends, std
   return joined;
 }
 
+/// Events where all casters are opaque.
+struct OpaqueEvents {
+  FitThread& thread;
+
+  [[nodiscard]] const BlockEvents& block() const { return thread.events; }
+  void gather(std::span<const EventLog* const> logs, std::uint32_t texels) const {
+    gather_events(logs, texels, thread.events);
+  }
+  void next_level(std::uint32_t width, std::uint32_t height) const {
+    merge_quads(thread.events, width, height, thread.next_events, thread.merge_room);
+    std::swap(thread.events, thread.next_events);
+  }
+  void sum_up(std::size_t level, std::size_t first, std::size_t count) const {
+    const auto keys = std::span(thread.events.keys).subspan(first, count);
+    if (level == 0)
+      accumulate(keys, thread.function, thread.merge_room);
+    else
+      sum_events(keys, thread.function);
+  }
+};
+
+/// Events where some are translucent.
+struct TranslucentEvents {
+  FitThread& thread;
+  std::uint32_t unit;
+
+  [[nodiscard]] const BlockChanges& block() const { return thread.changes; }
+  void gather(std::span<const EventLog* const> logs, std::uint32_t texels) const {
+    gather_changes(logs, texels, thread.changes);
+  }
+  void next_level(std::uint32_t width, std::uint32_t height) const {
+    join_quads(thread.changes, width, height, thread.next_changes);
+    std::swap(thread.changes, thread.next_changes);
+  }
+  void sum_up(std::size_t level, std::size_t first, std::size_t count) const {
+    sum_changes(std::span(thread.changes.keys).subspan(first, count), unit, static_cast<std::uint32_t>(level),
+                thread.function);
+  }
+};
+
 /// Fits one block and its levels; holds what the steps share.
+template <typename Events>
 class BlockFit {
  public:
-  BlockFit(const TileInput& input, const TileBlock& block, FitThread& thread)
-      : input_(input), block_(block), thread_(thread) {}
+  BlockFit(const TileInput& input, const TileBlock& block, FitThread& thread, Events events)
+      : input_(input), block_(block), thread_(thread), events_(events) {}
 
   FittedBlock run(std::span<const EventLog* const> logs) {
     const double start = omp_get_wtime();
@@ -54,9 +95,9 @@ class BlockFit {
     fitted.inputs = block_.inputs;
     fitted.width = static_cast<std::uint32_t>(block_.rect.x1 - block_.rect.x0);
     fitted.height = static_cast<std::uint32_t>(block_.rect.y1 - block_.rect.y0);
-    gather_events(logs, fitted.width * fitted.height, thread_.events);
+    events_.gather(logs, fitted.width * fitted.height);
     accumulated_ = omp_get_wtime() - start;
-    fitted.counts.events = thread_.events.keys.size();
+    fitted.counts.events = events_.block().keys.size();
     fitted.levels.push_back(fit_base(fitted.counts));
     while (fitted.levels.size() <= input_.level_rules.size()) fitted.levels.push_back(fit_next(fitted));
     thread_.statistics.accumulate += accumulated_;
@@ -81,8 +122,7 @@ class BlockFit {
     const std::size_t level = fitted.levels.size();
     const std::uint32_t width = fitted.width >> (level - 1), height = fitted.height >> (level - 1);
     const double start = omp_get_wtime();
-    merge_quads(thread_.events, width, height, thread_.next_events, thread_.merge_room);
-    std::swap(thread_.events, thread_.next_events);
+    events_.next_level(width, height);
     accumulated_ += omp_get_wtime() - start;
     FunctionBlock functions = fit_texels(level);
     functions.domain_end = join_ends(fitted.levels.back().domain_end, width, height);
@@ -92,15 +132,16 @@ class BlockFit {
   /// The functions of all texels that have their events gathered.
   FunctionBlock fit_texels(std::size_t level) {
     const FitRules& rules = level == 0 ? input_.rules : input_.level_rules[level - 1];
-    const std::size_t texels = thread_.events.first.size() - 1;
+    const std::vector<std::uint32_t>& firsts = events_.block().first;
+    const std::size_t texels = firsts.size() - 1;
     FunctionBlock functions;
     functions.first.reserve(texels + 1);
     functions.first.push_back(0);
     for (std::size_t t = 0; t < texels; ++t) {
-      const std::size_t first = thread_.events.first[t], last = thread_.events.first[t + 1];
+      const std::size_t first = firsts[t], last = firsts[t + 1];
       thread_.vertices.clear();
       if (first != last) {
-        sum_up(level, std::span(thread_.events.keys).subspan(first, last - first));
+        sum_up(level, first, last - first);
         // A filtered look-up asks texels up to 2^level beside the surface that it is for, whose bands are not
         // those of the texel's own rays: levels keep the tube at all depths.
         const bool has_bands = level == 0 && !block_.bands.empty();
@@ -112,18 +153,16 @@ class BlockFit {
     return functions;
   }
 
-  void sum_up(std::size_t level, std::span<EventKey> keys) {
+  void sum_up(std::size_t level, std::size_t first, std::size_t count) {
     const double before = omp_get_wtime();
-    if (level == 0)
-      accumulate(keys, thread_.function, thread_.merge_room);
-    else
-      sum_events(keys, thread_.function);
+    events_.sum_up(level, first, count);
     accumulated_ += omp_get_wtime() - before;
   }
 
   const TileInput& input_;
   const TileBlock& block_;
   FitThread& thread_;
+  const Events events_;
   double accumulated_ = 0;  ///< seconds
 };
 
@@ -131,7 +170,10 @@ class BlockFit {
 
 FittedBlock fit_block(const TileInput& input, const TileBlock& block, std::span<const EventLog* const> logs,
                       FitThread& thread) {
-  return BlockFit(input, block, thread).run(logs);
+  if (input.is_translucent())
+    return BlockFit(input, block, thread, TranslucentEvents{thread, input.rules.transmittance_unit})
+        .run(logs);
+  return BlockFit(input, block, thread, OpaqueEvents{thread}).run(logs);
 }
 
 }  // namespace pdsm

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "events/accumulate.h"
+#include "events/transmittance_events.h"
 #include "fit/fit_function.h"
 #include "tile/bake_tile.h"
 #include "tile/tile_block.h"
@@ -13,8 +14,9 @@ namespace pdsm {
 
 /// What one thread owns while fitting.
 struct FitThread {
-  BlockEvents events, next_events;   ///< of a level, and of the next
-  std::vector<EventKey> merge_room;  ///< for sorting, too
+  BlockEvents events, next_events;     ///< of a level, and of the next
+  BlockChanges changes, next_changes;  ///< the same with translucent casters
+  std::vector<EventKey> merge_room;    ///< for sorting, too
   StepFunction function;
   FitWorkspace room;
   std::vector<FunctionVertex> vertices;

@@ -77,8 +77,11 @@ void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureLis
               parallel ? "the light's rays are parallel: one walk serves all rays"
                        : "all light samples lie in the light's plane: one walk serves all rays",
               counted((texels - 1) * samples, "conversions of a ray"));
-  list.left_out("transmittance", "all casters are opaque: events are counted in integers",
-                counted(samples, "transmittance functions a map texel"));
+  if (casts && facts.has_translucency)
+    list.modelled("translucency", "casters let a part of the light through: their layers are traced");
+  else
+    list.left_out("transmittance", "all casters are opaque: events are counted in integers",
+                  counted(samples, "transmittance functions a map texel"));
   list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
   list.left_out("faces", "one view holds the window", counted(5 * texels, "texels"));
 }

@@ -58,6 +58,7 @@ void add_options(KeyHash& hash, const BakeSetup& setup) {
   hash.add(options.seed);
   hash.add(setup.mip_levels);
   hash.add(options.unrounded_values);
+  if (setup.light_space.has_translucency()) hash.add(setup.rules.transmittance_unit);
 }
 
 void add_samples(KeyHash& hash, const std::vector<LightSample>& samples) {
@@ -72,6 +73,9 @@ void add_samples(KeyHash& hash, const std::vector<LightSample>& samples) {
 /// What marks that a mask follows: no meshes without one run into the same bytes.
 constexpr std::uint64_t kMaskFollows = 0x6b73616d736d6473U;
 
+/// What marks that a mask blends, and that an opacity follows.
+constexpr std::uint64_t kMaskBlends = 0x73646e656c626d73U, kOpacityFollows = 0x797469636170736fU;
+
 void add_mask(KeyHash& hash, const LightSpaceMesh& mesh) {
   static_assert(sizeof(glm::vec2) == 2 * sizeof(float));
   hash.add(kMaskFollows);
@@ -81,6 +85,7 @@ void add_mask(KeyHash& hash, const LightSpaceMesh& mesh) {
   hash.add(std::span(mesh.mask->alpha));
   hash.add(std::span(mesh.mask->wrap));
   hash.add(mesh.mask->cutoff);
+  if (mesh.mask->blends) hash.add(kMaskBlends);
 }
 
 void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
@@ -93,6 +98,9 @@ void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
     hash.add(std::span(mesh.positions));
     hash.add(std::span(mesh.triangles));
     if (mesh.mask) add_mask(hash, mesh);
+    if (!mesh.is_translucent_caster()) continue;
+    hash.add(kOpacityFollows);
+    hash.add(mesh.opacity);
   }
 }
 

@@ -105,8 +105,9 @@ Weights point_in_texel(const MaskedTriangle& triangle, const Footprint& texel, c
   return is_within(point) ? point : centre;
 }
 
-bool is_hole(const LightSpaceMesh& mesh, const CutoutRays& rays, const RTCFilterFunctionNArguments& args,
-             unsigned lane) {
+/// Where in its mask a surface is looked at.
+glm::dvec2 place_seen(const LightSpaceMesh& mesh, const CutoutRays& rays,
+                      const RTCFilterFunctionNArguments& args, unsigned lane) {
   const unsigned n = args.N;
   const MaskedTriangle triangle = masked_triangle(mesh, RTCHitN_primID(args.hit, n, lane));
   const Weights centre(RTCHitN_u(args.hit, n, lane), RTCHitN_v(args.hit, n, lane));
@@ -116,7 +117,12 @@ bool is_hole(const LightSpaceMesh& mesh, const CutoutRays& rays, const RTCFilter
   const Weights point = narrow(triangle, *mesh.mask, texel)
                             ? point_in_texel(triangle, texel, centre, rays, RTCRayN_id(args.ray, n, lane))
                             : centre;
-  return !is_solid(*mesh.mask, triangle.place_at(point));
+  return triangle.place_at(point);
+}
+
+bool is_hole(const LightSpaceMesh& mesh, const CutoutRays& rays, const RTCFilterFunctionNArguments& args,
+             unsigned lane) {
+  return !is_solid(*mesh.mask, place_seen(mesh, rays, args, lane));
 }
 
 }  // namespace
@@ -140,6 +146,11 @@ void pass_through_holes(const RTCFilterFunctionNArguments* args) {
     if (is_hole(mesh, *reinterpret_cast<const CutoutRays*>(args->context), *args, lane))
       args->valid[lane] = 0;
   }
+}
+
+double alpha_met(const LightSpaceMesh& mesh, const CutoutRays& rays, const RTCFilterFunctionNArguments& args,
+                 unsigned lane) {
+  return alpha_at(*mesh.mask, place_seen(mesh, rays, args, lane)) / 255;
 }
 
 }  // namespace pdsm

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "pdsm/format/penumbra_map.h"
+#include "trace/light_space.h"
 #include "walk/map_grid.h"
 
 /// Where the rays of sample maps pass through holes of cutout casters (docs/maths.md, "Cutouts").
@@ -31,5 +32,10 @@ struct CutoutRays {
 /// Filter of a cutout geometry, whose user data is its LightSpaceMesh: rejects hits in holes by rays of
 /// kCutoutMask. To all others the surface is whole. A pure function of light sample, texel and triangle.
 void pass_through_holes(const RTCFilterFunctionNArguments* args);
+
+/// Alpha, 0 .. 1, of the mask where a lane's hit sees it: at a random point of the texel's footprint, so that
+/// the mean over light samples is that of the mask. A pure function of light sample, texel and triangle.
+[[nodiscard]] double alpha_met(const LightSpaceMesh& mesh, const CutoutRays& rays,
+                               const RTCFilterFunctionNArguments& args, unsigned lane);
 
 }  // namespace pdsm

@@ -31,7 +31,10 @@ void throw_embree_error(void*, RTCError code, const char* message) {
 }
 
 unsigned mask_of(const LightSpaceMesh& mesh) {
-  const unsigned caster = !mesh.casts ? 0 : mesh.is_cutout_caster() ? kCutoutMask : kCasterMask;
+  const unsigned caster = !mesh.casts                    ? 0
+                          : mesh.is_translucent_caster() ? kTranslucentMask
+                          : mesh.is_cutout_caster()      ? kCutoutMask
+                                                         : kCasterMask;
   return caster | (mesh.receives ? kReceiverMask : 0U);
 }
 
@@ -43,7 +46,7 @@ RTCGeometry make_geometry(RTCDevice device, const LightSpaceMesh& mesh) {
                              sizeof(glm::uvec3), mesh.triangles.size());
   rtcSetGeometryMask(geometry, mask_of(mesh));
   rtcSetGeometryUserData(geometry, const_cast<LightSpaceMesh*>(&mesh));
-  if (mesh.is_cutout_caster()) rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
+  if (mesh.casts && mesh.has_holes()) rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
   rtcCommitGeometry(geometry);
   return geometry;
 }
@@ -76,19 +79,23 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
   rtcSetDeviceErrorFunction(device_, throw_embree_error, nullptr);
   scene_ = new_scene(device_);
   if (scene.has_cutouts()) cutouts_ = new_scene(device_);
+  if (scene.has_translucency()) translucent_ = new_scene(device_);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const LightSpaceMesh& mesh = scene.meshes[i];
     if (mesh.triangles.empty()) continue;
     RTCGeometry geometry = make_geometry(device_, mesh);
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
     if (mesh.is_cutout_caster()) rtcAttachGeometryByID(cutouts_, geometry, static_cast<unsigned>(i));
+    if (mesh.is_translucent_caster()) rtcAttachGeometryByID(translucent_, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene_);
   if (cutouts_ != nullptr) rtcCommitScene(cutouts_);
+  if (translucent_ != nullptr) rtcCommitScene(translucent_);
 }
 
 EmbreeScene::~EmbreeScene() {
+  if (translucent_ != nullptr) rtcReleaseScene(translucent_);
   if (cutouts_ != nullptr) rtcReleaseScene(cutouts_);
   if (scene_ != nullptr) rtcReleaseScene(scene_);
   if (device_ != nullptr) rtcReleaseDevice(device_);

@@ -9,9 +9,9 @@
 
 namespace pdsm {
 
-/// Ray masks of the baker's scene: casters that are whole, receivers, casters with holes. Rays that ask for
-/// the last carry CutoutRays (trace/cutout_holes.h).
-inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2, kCutoutMask = 4;
+/// Ray masks of the baker's scene: casters that are whole, receivers, casters with holes, casters that let a
+/// part of the light through. Rays that ask for casters with holes carry CutoutRays (trace/cutout_holes.h).
+inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2, kCutoutMask = 4, kTranslucentMask = 8;
 
 /// The ISA that Embree will use when asked for `wanted` (empty: the best of this machine). Throws Error
 /// (usage) for an unknown name or one that this machine lacks.
@@ -29,12 +29,14 @@ class EmbreeScene {
   [[nodiscard]] RTCScene handle() const { return scene_; }
   /// The casters with holes alone; null where there are none.
   [[nodiscard]] RTCScene cutouts() const { return cutouts_; }
+  /// The translucent casters alone; null where there are none.
+  [[nodiscard]] RTCScene translucent() const { return translucent_; }
   [[nodiscard]] const LightSpaceScene& geometry() const { return geometry_; }
 
  private:
   const LightSpaceScene& geometry_;
   RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr, cutouts_ = nullptr;
+  RTCScene scene_ = nullptr, cutouts_ = nullptr, translucent_ = nullptr;
 };
 
 }  // namespace pdsm

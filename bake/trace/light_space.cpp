@@ -33,7 +33,9 @@ bool is_good(const LightSpaceMesh& mesh, std::uint32_t corner) {
 
 LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_light, std::uint64_t& dropped) {
   LightSpaceMesh mesh;
-  mesh.casts = geometry.casts;
+  check_opacity(geometry);
+  mesh.casts = casts_shadows(geometry);
+  mesh.opacity = geometry.opacity;
   mesh.receives = geometry.receives;
   mesh.closed = geometry.mesh->closed;
   check_mask(*geometry.mesh, geometry.name);
@@ -59,6 +61,12 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
 
 bool LightSpaceScene::has_cutouts() const {
   return std::ranges::any_of(meshes, &LightSpaceMesh::is_cutout_caster);
+}
+
+bool LightSpaceScene::has_translucency() const {
+  return std::ranges::any_of(meshes, [](const LightSpaceMesh& mesh) {
+    return mesh.is_translucent_caster() && !mesh.triangles.empty();
+  });
 }
 
 LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light) {

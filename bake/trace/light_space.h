@@ -18,11 +18,16 @@ struct LightSpaceMesh {
   bool casts = true, receives = true, closed = false;
   std::shared_ptr<const CutoutMask> mask;  ///< null: nothing is cut out
   std::vector<glm::vec2> mask_places;      ///< one a position, where there is a mask
+  double opacity = 1;                      ///< above 0 where it casts
 
   /// Whether all rays that meet it end there.
-  [[nodiscard]] bool is_whole_caster() const { return casts && mask == nullptr; }
+  [[nodiscard]] bool is_whole_caster() const { return casts && mask == nullptr && opacity == 1; }
   /// Whether they may pass through.
-  [[nodiscard]] bool is_cutout_caster() const { return casts && mask != nullptr; }
+  [[nodiscard]] bool is_cutout_caster() const { return casts && has_holes() && opacity == 1; }
+  /// Whether rays go on behind it with less.
+  [[nodiscard]] bool is_translucent_caster() const { return casts && (opacity != 1 || blends()); }
+  [[nodiscard]] bool blends() const { return mask != nullptr && mask->blends; }
+  [[nodiscard]] bool has_holes() const { return mask != nullptr && !mask->blends; }
 };
 
 /// The scene as one light sees it. Triangles with coordinates or places in a mask that are not finite are
@@ -33,6 +38,8 @@ struct LightSpaceScene {
 
   /// Whether any caster has holes.
   [[nodiscard]] bool has_cutouts() const;
+  /// Whether any caster lets a part of the light through.
+  [[nodiscard]] bool has_translucency() const;
 };
 
 /// Throws as check_mask() does.

@@ -43,7 +43,7 @@ TexelPair texels_at(double at, std::uint32_t count, MaskWrap wrap) {
 
 }  // namespace
 
-bool is_solid(const CutoutMask& mask, const glm::dvec2& place) {
+double alpha_at(const CutoutMask& mask, const glm::dvec2& place) {
   const TexelPair x = texels_at(place.x, mask.width, mask.wrap[0]),
                   y = texels_at(place.y, mask.height, mask.wrap[1]);
   const auto row = [&](std::size_t j) {
@@ -52,7 +52,11 @@ bool is_solid(const CutoutMask& mask, const glm::dvec2& place) {
     return alpha[x.first] + x.share * (alpha[x.second] - alpha[x.first]);
   };
   const double low = row(y.first), high = row(y.second);
-  return low + y.share * (high - low) >= 255.0 * static_cast<double>(mask.cutoff);
+  return low + y.share * (high - low);
+}
+
+bool is_solid(const CutoutMask& mask, const glm::dvec2& place) {
+  return alpha_at(mask, place) >= 255.0 * static_cast<double>(mask.cutoff);
 }
 
 }  // namespace pdsm

@@ -7,6 +7,10 @@
 
 namespace pdsm {
 
+/// A mask's alpha at `place` (u, v), which is finite, in units of 1/255: linear between the centres of
+/// texels. Any thread.
+[[nodiscard]] double alpha_at(const CutoutMask& mask, const glm::dvec2& place);
+
 /// Whether a surface with this mask is there at `place` (u, v), which is finite: its alpha, linear between
 /// the centres of texels, is at least the cutoff. Any thread.
 [[nodiscard]] bool is_solid(const CutoutMask& mask, const glm::dvec2& place);

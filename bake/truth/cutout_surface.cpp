@@ -34,12 +34,16 @@ double alpha_of(const CutoutMask& mask, double x, double y) {
 
 }  // namespace
 
-bool is_hole(const CutoutMask& mask, const glm::dvec2& place) {
+double mask_alpha(const CutoutMask& mask, const glm::dvec2& place) {
   const double x = place.x * mask.width - 0.5, y = place.y * mask.height - 0.5;
   const double x0 = std::floor(x), y0 = std::floor(y);
   const double near = std::lerp(alpha_of(mask, x0, y0), alpha_of(mask, x0 + 1, y0), x - x0),
                far = std::lerp(alpha_of(mask, x0, y0 + 1), alpha_of(mask, x0 + 1, y0 + 1), x - x0);
-  return std::lerp(near, far, y - y0) < static_cast<double>(mask.cutoff);
+  return std::lerp(near, far, y - y0);
+}
+
+bool is_hole(const CutoutMask& mask, const glm::dvec2& place) {
+  return !mask.blends && mask_alpha(mask, place) < static_cast<double>(mask.cutoff);
 }
 
 bool is_hole(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec3& weights) {

@@ -17,7 +17,7 @@ constexpr double kRayStart = 1e-4;
 constexpr double kEmitterShare = 1e-4;
 
 bool is_caster(const Geometry& geometry) {
-  return geometry.casts;
+  return casts_shadows(geometry);
 }
 
 glm::dvec3 rotate(const RigidTransform& transform, const glm::dvec3& v) {
@@ -41,12 +41,15 @@ struct ShadowRays::Packet {
   std::array<LightPoint, kPacketSize> light_point;
 };
 
-/// What the filter of biased rays knows; rays carry their lane as id.
-struct ShadowRays::BiasedContext {
+/// What the filter of biased rays, and of rays through translucent surfaces, knows; rays carry their lane as
+/// id.
+struct ShadowRays::RayContext {
   RTCIntersectContext context;  // first, so that Embree's pointer to it is one to the whole
   const Packet* packet;
   const CasterBias* bias;
   const RigidTransform* world_to_light;
+  const TranslucentSurfaces* translucent;
+  std::array<TranslucentSurfaces::Crossings, kPacketSize> crossings;  ///< by lane
 
   [[nodiscard]] glm::dvec3 to_light(const glm::dvec3& v) const { return rotate(*world_to_light, v); }
 
@@ -67,14 +70,17 @@ struct ShadowRays::BiasedContext {
   }
 
   static void filter(const RTCFilterFunctionNArguments* args) {
-    const auto& self = *reinterpret_cast<const BiasedContext*>(args->context);
+    auto& self = *reinterpret_cast<RayContext*>(args->context);
     const unsigned n = args->N;
     for (unsigned i = 0; i < n; ++i) {
       if (args->valid[i] != -1) continue;
       const glm::dvec3 normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
                               RTCHitN_Ng_z(args->hit, n, i));
       const auto t = static_cast<double>(RTCRayN_tfar(args->ray, n, i));
-      if (self.ignores(RTCRayN_id(args->ray, n, i), t, normal)) args->valid[i] = 0;
+      const unsigned lane = RTCRayN_id(args->ray, n, i);
+      if ((self.bias != nullptr && self.ignores(lane, t, normal)) ||
+          self.translucent->cross(*args, i, self.crossings[lane]))
+        args->valid[i] = 0;
     }
   }
 };
@@ -87,11 +93,13 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
       emitter_depth_(distant_ ? -std::numeric_limits<double>::infinity() : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
-      casters_(scene, is_caster, Holes::open, [this](const std::array<glm::dvec3, 3>& corners) {
-        return std::any_of(corners.begin(), corners.end(), [this](const glm::dvec3& corner) {
-          return apply(world_to_light_, corner).z > emitter_depth_;
-        });
-      }) {}
+      casters_(scene, is_caster, Holes::open,
+               [this](const std::array<glm::dvec3, 3>& corners) {
+                 return std::any_of(corners.begin(), corners.end(), [this](const glm::dvec3& corner) {
+                   return apply(world_to_light_, corner).z > emitter_depth_;
+                 });
+               }),
+      translucent_(scene, casters_) {}
 
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
@@ -115,15 +123,15 @@ double ShadowRays::share_blocked(const glm::dvec3& world_point, std::uint32_t co
   if (!(packet.depth > std::max(emitter_depth_, 0.0))) return 0;
   packet.world_point = world_point;
   packet.origin = glm::vec3(world_point - casters_.centre());
-  std::uint64_t blocked = 0;
+  double blocked = 0;
   for (std::uint32_t first = 0; first < count; first += kPacketSize) {
     const std::uint32_t size = std::min(kPacketSize, count - first);
     packet.size = 0;
     for (std::uint32_t i = 0; i < size; ++i) add_ray(light_point(first + i), packet);
-    blocked += static_cast<std::uint64_t>(count_blocked(packet, bias));
+    blocked += sum_blocked(packet, bias);
     if (count - first <= kPacketSize) break;  // first + 16 may not fit 32 bits
   }
-  return static_cast<double>(blocked) / count;
+  return blocked / count;
 }
 
 void ShadowRays::add_ray(const LightPoint& point, Packet& packet) const {
@@ -140,7 +148,7 @@ void ShadowRays::add_ray(const LightPoint& point, Packet& packet) const {
   }
 }
 
-int ShadowRays::count_blocked(const Packet& packet, const CasterBias* bias) const {
+double ShadowRays::sum_blocked(const Packet& packet, const CasterBias* bias) const {
   alignas(64) std::array<int, kPacketSize> valid{};
   RTCRay16 rays{};
   for (std::uint32_t i = 0; i < packet.size; ++i) {
@@ -156,15 +164,16 @@ int ShadowRays::count_blocked(const Packet& packet, const CasterBias* bias) cons
     rays.mask[i] = ~0U;
     rays.id[i] = i;
   }
-  BiasedContext biased{{}, &packet, bias, &world_to_light_};
-  rtcInitIntersectContext(&biased.context);
-  biased.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (bias != nullptr) biased.context.filter = BiasedContext::filter;
-  rtcOccluded16(valid.data(), casters_.handle(), &biased.context, &rays);
+  RayContext context{{}, &packet, bias, &world_to_light_, &translucent_, {}};
+  rtcInitIntersectContext(&context.context);
+  context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (bias != nullptr || !translucent_.empty()) context.context.filter = RayContext::filter;
+  rtcOccluded16(valid.data(), casters_.handle(), &context.context, &rays);
 
   // Embree marks a blocked ray by a tfar of -inf.
-  int blocked = 0;
-  for (std::uint32_t i = 0; i < packet.size; ++i) blocked += rays.tfar[i] < 0 ? 1 : 0;
+  double blocked = 0;
+  for (std::uint32_t i = 0; i < packet.size; ++i)
+    blocked += rays.tfar[i] < 0 ? 1 : translucent_.share_kept(context.crossings[i]);
   return blocked;
 }
 

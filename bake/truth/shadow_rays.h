@@ -11,12 +11,14 @@
 #include "pdsm/format/penumbra_map.h"
 #include "truth/caster_bias.h"
 #include "truth/light_points.h"
+#include "truth/translucent_surfaces.h"
 #include "truth/world_scene.h"
 
 namespace pdsm {
 
 /// Attenuation by shadow rays: the truth that maps are measured against. It shares no visibility code and
-/// no light samples with the baker. All casters of the scene block, window or not, but for their holes.
+/// no light samples with the baker. All casters of the scene block, window or not, but for their holes;
+/// translucent ones let their share of each ray through, surface by surface.
 class ShadowRays {
  public:
   /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never
@@ -24,9 +26,9 @@ class ShadowRays {
   /// fails.
   ShadowRays(const Scene& scene, const Light& light, double near_depth);
 
-  /// Share of `samples` (>= 1) light points that casters hide from `world_point` (metres); 0 behind the
-  /// light. Rays leave the point at 1e-4 of the distance to the light point, or to where a distant light's
-  /// space begins. A pure function of its arguments; any thread.
+  /// Share of the light of `samples` (>= 1) light points that casters keep from `world_point` (metres); 0
+  /// behind the light. Rays leave the point at 1e-4 of the distance to the light point, or to where a distant
+  /// light's space begins. A pure function of its arguments; any thread.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                    std::uint64_t seed) const;
 
@@ -36,26 +38,28 @@ class ShadowRays {
                                                  std::uint32_t samples, std::uint64_t seed,
                                                  bool same_seed = false) const;
 
-  /// Share of the given light points (1 or more) that casters hide from `world_point`; 0 behind the light.
-  /// With `bias`, a caster hides nothing from points as near behind it, in depth, as its bias.
+  /// Share of the light of the given light points (1 or more) that casters keep from `world_point`; 0 behind
+  /// the light. With `bias`, a caster hides nothing from points as near behind it, in depth, as its bias.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
                                    const CasterBias* bias = nullptr) const;
 
  private:
   struct Packet;
-  struct BiasedContext;
-  /// Share of light points 0 .. count - 1 that are hidden; `light_point(n)` makes them.
+  struct RayContext;
+  /// Share of the light of light points 0 .. count - 1 that is kept off; `light_point(n)` makes them.
   template <typename MakePoint>
   [[nodiscard]] double share_blocked(const glm::dvec3& world_point, std::uint32_t count,
                                      const MakePoint& light_point, const CasterBias* bias) const;
   void add_ray(const LightPoint& point, Packet& packet) const;
-  [[nodiscard]] int count_blocked(const Packet& packet, const CasterBias* bias) const;
+  /// The sum of what casters take of a packet's rays.
+  [[nodiscard]] double sum_blocked(const Packet& packet, const CasterBias* bias) const;
 
   LightSurface light_;
   RigidTransform world_to_light_, light_to_world_;
   bool distant_;
   double emitter_depth_;  ///< light-space z up to which nothing blocks
   WorldScene casters_;
+  TranslucentSurfaces translucent_;
 };
 
 }  // namespace pdsm

@@ -118,9 +118,17 @@ void WorldScene::cut_out(RTCGeometry target, const Mesh& mesh) {
                                        mesh.mask_places.size());
   std::copy(mesh.mask_places.begin(), mesh.mask_places.end(), places);
   cutouts_.push_back(std::make_unique<const Cutout>(Cutout{target, mesh.mask}));
+  if (mesh.mask->blends) return;
   rtcSetGeometryUserData(target, const_cast<Cutout*>(cutouts_.back().get()));
   rtcSetGeometryIntersectFilterFunction(target, Cutout::filter);
   rtcSetGeometryOccludedFilterFunction(target, Cutout::filter);
+}
+
+glm::dvec2 WorldScene::mask_place(unsigned geometry, unsigned triangle, float u, float v) const {
+  glm::vec2 place;
+  rtcInterpolate0(rtcGetGeometry(scene_.get(), geometry), triangle, u, v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0,
+                  &place.x, 2);
+  return glm::dvec2(place);
 }
 
 }  // namespace pdsm

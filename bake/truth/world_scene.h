@@ -32,6 +32,8 @@ class WorldScene {
              const KeepTriangle& keep_triangle = {});
 
   [[nodiscard]] RTCScene handle() const { return scene_.get(); }
+  /// (u, v) in the mask of a geometry at a hit's weights of the triangle's second and third corner.
+  [[nodiscard]] glm::dvec2 mask_place(unsigned geometry, unsigned triangle, float u, float v) const;
   /// What was subtracted from world space, metres.
   [[nodiscard]] const glm::dvec3& centre() const { return centre_; }
 

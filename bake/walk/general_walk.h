@@ -6,6 +6,7 @@
 
 #include "events/event_log.h"
 #include "trace/sample_map.h"
+#include "walk/layer_walk.h"
 #include "walk/walk_steps.h"
 
 /// The walk of the thesis, for samples out of the light's plane: each ray is projected and scan-converted
@@ -19,6 +20,11 @@ namespace pdsm {
 /// Appends the events of all rays of the block at `rect` to `log`. `domain_ends`: one value a texel of the
 /// block, row by row. `map` covers general_footprint(). `steps` is room to work in.
 void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, const SampleMap& map,
+                  const TexelRect& rect, std::span<const float> domain_ends, std::vector<WalkStep>& steps,
+                  EventLog& log);
+
+/// The same of a map with layers, as changes of transmittance.
+void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, const LayeredMap& map,
                   const TexelRect& rect, std::span<const float> domain_ends, std::vector<WalkStep>& steps,
                   EventLog& log);
 

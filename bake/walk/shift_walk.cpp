@@ -20,6 +20,19 @@ std::int64_t map_texel(const GridRatio& ratio, std::int32_t ray) {
   return std::int64_t{ray} / ratio.coarse * ratio.fine;
 }
 
+/// The map texels under the lanes of a packet that are in use, of phase 0.
+TexelRect base_texels(const std::array<GridRatio, 2>& ratio, const RayPacket& packet) {
+  std::int32_t first = RayPacket::kLanes, last = 0;
+  for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(RayPacket::kLanes); ++lane) {
+    if (packet.domain_end[static_cast<std::size_t>(lane)] == RayPacket::kUnused) continue;
+    first = std::min(first, lane);
+    last = lane;
+  }
+  const auto fine_x = static_cast<std::int32_t>(ratio[0].fine);
+  const std::int32_t y = packet.row * static_cast<std::int32_t>(ratio[1].fine);
+  return {(packet.column + first) * fine_x, y, (packet.column + last) * fine_x + 1, y + 1};
+}
+
 }  // namespace
 
 void ShiftWalk::list(const MapGrid& grid, const LightSample& sample, Walk walk) {
@@ -96,6 +109,36 @@ void ShiftWalk::walk(const SampleMap& map, std::span<const RayPacket> packets, E
     const StepTable& table = phases_[std::size_t{y} * ratio_[0].coarse + x].table;
     walk_ray_packets(table, map.data(), row_pitch, packets.subspan(begin, end - begin), log);
     begin = end;
+  }
+}
+
+void ShiftWalk::walk(const LayeredMap& map, std::span<const RayPacket> packets, EventLog& log) const {
+  const std::int64_t row_pitch = map.opaque.pitch() * ratio_[1].fine;
+  for (const RayPacket& packet : packets) {
+    const Phase& phase = phases_[std::size_t{packet.phase_y} * ratio_[0].coarse + packet.phase_x];
+    if (meets_layers(phase, map.layers, base_texels(ratio_, packet)))
+      walk_lanes(phase, map, packet, log);
+    else
+      walk_ray_packets(phase.table, map.opaque.data(), row_pitch, {&packet, 1}, log);
+  }
+}
+
+bool ShiftWalk::meets_layers(const Phase& phase, const LayerMap& layers, const TexelRect& texels) const {
+  const auto base_x = static_cast<std::int32_t>(phase.base_x),
+             base_y = static_cast<std::int32_t>(phase.base_y);
+  return std::ranges::any_of(phase.steps, [&](const WalkStep& step) {
+    const std::int32_t dx = base_x + step.dx, dy = base_y + step.dy;
+    return layers.any_within({texels.x0 + dx, texels.y0 + dy, texels.x1 + dx, texels.y1 + dy});
+  });
+}
+
+void ShiftWalk::walk_lanes(const Phase& phase, const LayeredMap& map, const RayPacket& packet,
+                           EventLog& log) const {
+  const std::int64_t y = std::int64_t{packet.row} * ratio_[1].fine + phase.base_y;
+  for (std::uint32_t lane = 0; lane < RayPacket::kLanes; ++lane) {
+    if (packet.domain_end[lane] == RayPacket::kUnused) continue;
+    const std::int64_t x = (std::int64_t{packet.column} + lane) * ratio_[0].fine + phase.base_x;
+    walk_layers(map, phase.steps, x, y, packet.texel[lane], packet.domain_end[lane], log);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "events/event_log.h"
 #include "trace/sample_map.h"
+#include "walk/layer_walk.h"
 #include "walk/ray_packets.h"
 #include "walk/walk_steps.h"
 
@@ -34,6 +35,8 @@ class ShiftWalk {
   void bind(const SampleMap& map);
   /// Appends the events of all rays of `packets` to `log`.
   void walk(const SampleMap& map, std::span<const RayPacket> packets, EventLog& log) const;
+  /// The same of a map with layers, as changes of transmittance. Packets that meet none are walked as above.
+  void walk(const LayeredMap& map, std::span<const RayPacket> packets, EventLog& log) const;
 
   /// Texels visited by a ray of phase 0.
   [[nodiscard]] std::size_t length() const { return phases_.front().steps.size(); }
@@ -44,6 +47,9 @@ class ShiftWalk {
     std::vector<WalkStep> steps;
     StepTable table;
   };
+
+  [[nodiscard]] bool meets_layers(const Phase& phase, const LayerMap& layers, const TexelRect& texels) const;
+  void walk_lanes(const Phase& phase, const LayeredMap& map, const RayPacket& packet, EventLog& log) const;
 
   std::array<GridRatio, 2> ratio_{};
   std::vector<Phase> phases_;

@@ -24,7 +24,7 @@ int shown(int texel, int count, MaskWrap wrap) {
 }
 
 /// Bilinear alpha from 0 to 1, as a sum of four texels by their weights.
-double alpha_at(const CutoutMask& mask, const glm::dvec2& place) {
+double reference_alpha(const CutoutMask& mask, const glm::dvec2& place) {
   const double x = place.x * mask.width - 0.5, y = place.y * mask.height - 0.5;
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   double sum = 0;
@@ -54,7 +54,7 @@ TEST(MaskAlpha, IsLinearBetweenTexelCentresInEveryWrapMode) {
       wrap = random.pick({MaskWrap::repeat, MaskWrap::mirror, MaskWrap::clamp});
     for (int p = 0; p < 200; ++p) {
       const glm::dvec2 place(random.uniform(-7, 7), random.uniform(-7, 7));
-      const double above = alpha_at(mask, place) - static_cast<double>(mask.cutoff);
+      const double above = reference_alpha(mask, place) - static_cast<double>(mask.cutoff);
       // Up to the rounding of a few doubles.
       if (std::abs(above) < 1e-12) continue;
       ASSERT_EQ(is_solid(mask, place), above > 0) << place.x << " " << place.y;

@@ -95,12 +95,27 @@ TEST_F(GltfCutout, HasMaskAndPlaces) {
   expect_places({{0, 0}, {1, 0}, {0.25F, 0.75F}});
 }
 
-TEST_F(GltfCutout, OtherAlphaModesCutNothing) {
-  for (const char* mode : {"OPAQUE", "BLEND"}) {
-    material()["alphaMode"] = mode;
-    EXPECT_EQ(import().mask, nullptr) << mode;
-    EXPECT_TRUE(import().mask_places.empty()) << mode;
-  }
+TEST_F(GltfCutout, OpaqueCutsNothing) {
+  material()["alphaMode"] = "OPAQUE";
+  material()["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.6};
+  EXPECT_EQ(import().mask, nullptr);
+  EXPECT_TRUE(import().mask_places.empty());
+  EXPECT_EQ(scene().geometry[0].opacity, 1);
+}
+
+TEST_F(GltfCutout, BlendIsOpacityTimesAlpha) {
+  material()["alphaMode"] = "BLEND";
+  material()["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.6};
+  const Scene textured = scene();
+  EXPECT_EQ(textured.geometry[0].opacity, 0.6);
+  ASSERT_NE(textured.geometry[0].mesh->mask, nullptr);
+  EXPECT_TRUE(textured.geometry[0].mesh->mask->blends);
+  EXPECT_EQ(textured.geometry[0].mesh->mask->alpha, kAlpha);
+  EXPECT_EQ(textured.geometry[0].mesh->mask_places.size(), 3U);
+  material()["pbrMetallicRoughness"].erase("baseColorTexture");
+  const Scene plain = scene();
+  EXPECT_EQ(plain.geometry[0].opacity, 0.6);
+  EXPECT_EQ(plain.geometry[0].mesh->mask, nullptr);
 }
 
 TEST_F(GltfCutout, CutoffAndBaseColourFactor) {

@@ -84,6 +84,25 @@ TEST_F(PartRules, GoInOrderOverTheEntrysOwn) {
   EXPECT_EQ(told(R"([{"node": "wall", "casts": true}])", R"("casts": false, "receives": false, )"), "w--");
 }
 
+TEST_F(PartRules, OpacityGoesOverTheMaterialsAndTheEntrys) {
+  gltf_["materials"][2] = {{"name", "glass"},
+                           {"alphaMode", "BLEND"},
+                           {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.25}}}}};
+  folder_.write("level.gltf", gltf_.dump());
+  const Scene scene = folder_.read(
+      scene_of("level.gltf", R"("opacity": 0.5, "parts": [{"material": "wood", "opacity": 0.75}])"));
+  ASSERT_EQ(scene.geometry.size(), 3U);
+  EXPECT_EQ(scene.geometry[0].opacity, 0.5);
+  EXPECT_EQ(scene.geometry[1].opacity, 0.75);
+  EXPECT_EQ(scene.geometry[2].opacity, 0.125);
+  EXPECT_EQ(folder_.read(scene_of("level.gltf", R"("parts": [{"material": "glass", "opacity": 1}])"))
+                .geometry[2]
+                .opacity,
+            1);
+  EXPECT_EQ(fault_of(R"([{"node": "wall", "opacity": 1.5}])"),
+            "level.scene.json:geometry[0].parts[0].opacity: must be a number from 0 to 1");
+}
+
 TEST_F(PartRules, AreForOneEntryAlone) {
   const Scene scene = folder_.read(
       R"({"geometry": [{"file": "level.gltf", "parts": [{"node": "*", "casts": false}]}, {"file": "level.gltf"}]})");
@@ -119,7 +138,7 @@ TEST_F(PartRules, ThatSayNothingAreFaults) {
   const std::string place = "level.scene.json:geometry[0].parts";
   EXPECT_EQ(fault_of(R"([{"casts": false}])"),
             place + "[0].node: or material must tell what the rule is for");
-  EXPECT_EQ(fault_of(R"([{"node": "wall"}])"), place + "[0].casts: or receives must be there");
+  EXPECT_EQ(fault_of(R"([{"node": "wall"}])"), place + "[0].casts: or receives or opacity must be there");
   EXPECT_EQ(fault_of(R"([{"node": "", "casts": false}])"),
             place + "[0].node: must be a name, or a pattern of one");
   EXPECT_EQ(fault_of(R"([{"nodes": "wall", "casts": false}])").rfind(place + "[0].nodes: unknown key", 0),

@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         in_geometry(R"("translate": null)", "translate: must be [x,y,z], three numbers"),
         in_geometry(R"("casts": 1)", "casts: must be true or false"),
         in_geometry(R"("receives": "yes")", "receives: must be true or false"),
-        in_geometry(R"("opacity": 0.5)", "opacity: other than 1: not supported yet"),
+        in_geometry(R"("opacity": "half")", "opacity: must be a number"),
         in_geometry(R"("opacity": 1.5)", "opacity: must be a number from 0 to 1"),
         in_geometry(R"("opacity": -1)", "opacity: must be a number from 0 to 1")));
 

@@ -49,6 +49,8 @@ TEST_F(SceneFile, GeometryTakesItsFields) {
   EXPECT_TRUE(scene.geometry[0].receives);
   EXPECT_EQ(glm::dvec3(scene.geometry[0].local_to_world[3]), glm::dvec3(1, 2, 3));
   EXPECT_FALSE(folder_.read(scene_of("box.obj", R"("receives": false)")).geometry[0].receives);
+  EXPECT_EQ(scene.geometry[0].opacity, 1);
+  EXPECT_EQ(folder_.read(scene_of("box.obj", R"("opacity": 0.25)")).geometry[0].opacity, 0.25);
 }
 
 TEST_F(SceneFile, FilesAreRelativeToTheScene) {

@@ -29,6 +29,9 @@ struct CutoutMask {
   std::vector<std::uint8_t> alpha;      ///< row by row, the one at v = 0 first; 255 is 1
   std::array<MaskWrap, 2> wrap{};       ///< along u and v
   float cutoff = 0.5F;                  ///< 0 or more; 0: no holes, above 1: nothing but
+  /// Nothing is cut out: alpha times Geometry::opacity is the surface's opacity, and the cutoff means
+  /// nothing.
+  bool blends = false;
 };
 inline constexpr std::uint32_t kMostMaskTexels = 16384;
 
@@ -59,6 +62,10 @@ struct Geometry {
   std::shared_ptr<const Mesh> mesh;
   glm::dmat4 local_to_world{1.0};
   bool casts = true, receives = true;
+  /// Share of light that each surface takes away where a ray crosses it, 0 .. 1. Layers multiply. 0 casts
+  /// nothing, 1 is opaque. With a mask that blends, times its alpha. What a translucent surface receives is
+  /// what an opaque one does.
+  double opacity = 1;
   glm::vec3 base_color{0.72F, 0.70F, 0.66F};  ///< linear RGB; pictures only
 };
 
@@ -68,6 +75,20 @@ struct RectLight {
 struct DiskLight {
   double radius = 0.5;  ///< metres; 0 makes a point
 };
+
+/// Whether a geometry takes any light away.
+[[nodiscard]] inline bool casts_shadows(const Geometry& geometry) {
+  return geometry.casts && geometry.opacity != 0;
+}
+
+/// Whether it takes away a part of the light only, somewhere.
+[[nodiscard]] inline bool is_translucent_caster(const Geometry& geometry) {
+  return casts_shadows(geometry) &&
+         (geometry.opacity != 1 || (geometry.mesh->mask && geometry.mesh->mask->blends));
+}
+
+/// Throws Error (input) "name:opacity: reason" for one outside of 0 .. 1, or NaN. Baking calls it.
+void check_opacity(const Geometry& geometry);
 
 /// A light so far away that it is seen under the same angle from everywhere: the sun.
 struct DistantLight {

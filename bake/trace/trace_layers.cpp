@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trace/trace_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "trace/cutout_holes.h"
+#include "trace/map_rays.h"
+
+namespace pdsm {
+namespace {
+
+/// Floats of one surface's depth as its two triangles at an edge have it.
+constexpr float kSameDepth = 0x1p-20F;
+
+struct Hit {
+  float t = 0;
+  unsigned mesh = 0, triangle = 0;
+  glm::vec3 normal{0};
+  double opacity = 0;
+};
+
+/// What the filter fills: CutoutRays first, as filters of casters with holes expect.
+struct LayerRays {
+  CutoutRays rays;
+  const LightSpaceScene* scene;
+  std::array<std::vector<Hit>, kMapPacketRays> hits;
+
+  void take(const RTCFilterFunctionNArguments& args, unsigned lane) {
+    const unsigned n = args.N;
+    Hit hit;
+    hit.t = RTCRayN_tfar(args.ray, n, lane);
+    hit.mesh = RTCHitN_geomID(args.hit, n, lane);
+    hit.triangle = RTCHitN_primID(args.hit, n, lane);
+    hit.normal = {RTCHitN_Ng_x(args.hit, n, lane), RTCHitN_Ng_y(args.hit, n, lane),
+                  RTCHitN_Ng_z(args.hit, n, lane)};
+    const LightSpaceMesh& mesh = scene->meshes[hit.mesh];
+    hit.opacity = mesh.opacity * (mesh.blends() ? alpha_met(mesh, rays, args, lane) : 1);
+    hits[RTCRayN_id(args.ray, n, lane)].push_back(hit);
+  }
+
+  /// Takes every hit and lets the ray go on.
+  static void filter(const RTCFilterFunctionNArguments* args) {
+    auto& self = *reinterpret_cast<LayerRays*>(args->context);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+      if (args->valid[lane] != -1) continue;
+      self.take(*args, lane);
+      args->valid[lane] = 0;
+    }
+  }
+};
+
+/// Whether two triangles of a mesh have an edge or a corner in common, and aren't copies.
+bool are_neighbours(const LightSpaceMesh& mesh, unsigned a, unsigned b) {
+  int shared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const glm::vec3& p = mesh.positions[mesh.triangles[a][i]];
+    for (int j = 0; j < 3; ++j) shared += p == mesh.positions[mesh.triangles[b][j]] ? 1 : 0;
+  }
+  return shared == 1 || shared == 2;
+}
+
+bool is_same_surface(const LightSpaceScene& scene, const Hit& a, const Hit& b) {
+  // Embree may tell a filter of one hit more than once.
+  return a.mesh == b.mesh && b.t - a.t <= kSameDepth * b.t &&
+         (a.triangle == b.triangle || are_neighbours(scene.meshes[a.mesh], a.triangle, b.triangle));
+}
+
+/// Near to far, each surface once.
+void put_in_order(const LightSpaceScene& scene, std::vector<Hit>& hits) {
+  const auto key = [](const Hit& hit) { return std::tie(hit.t, hit.mesh, hit.triangle); };
+  std::ranges::sort(hits, [&](const Hit& a, const Hit& b) { return key(a) < key(b); });
+  std::size_t kept = 0;
+  for (const Hit& hit : hits) {
+    bool is_known = false;
+    for (std::size_t n = kept; n-- > 0 && hit.t - hits[n].t <= kSameDepth * hit.t && !is_known;)
+      is_known = is_same_surface(scene, hits[n], hit);
+    if (!is_known) hits[kept++] = hit;
+  }
+  hits.resize(kept);
+}
+
+class LayerTrace {
+ public:
+  LayerTrace(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample, const MapBias& bias)
+      : scene_(scene),
+        map_rays_(grid, sample),
+        bias_(scene, grid, sample, bias),
+        layer_rays_{{grid, sample}, &scene.geometry(), {}} {
+    layer_rays_.rays.context.filter = LayerRays::filter;
+  }
+
+  /// Whether anything is met by the rays of the packet at (x, y).
+  bool trace(std::int32_t x, std::int32_t y) {
+    alignas(64) static constexpr std::array<int, kMapPacketRays> kAll{-1, -1, -1, -1, -1, -1, -1, -1,
+                                                                      -1, -1, -1, -1, -1, -1, -1, -1};
+    map_rays_.fill(packet_, x, y);
+    std::fill_n(packet_.ray.mask, kMapPacketRays, kTranslucentMask | kCutoutMask);
+    layer_rays_.rays.set_packet(x, y);
+    for (auto& hits : layer_rays_.hits) hits.clear();
+    rtcIntersect16(kAll.data(), scene_.translucent(), &layer_rays_.rays.context, &packet_);
+    most_ = 0;
+    for (auto& hits : layer_rays_.hits) {
+      put_in_order(scene_.geometry(), hits);
+      most_ = std::max(most_, hits.size());
+    }
+    return most_ > 0;
+  }
+
+  /// Finds the biased depths of what was met.
+  void add_biases(SlopeBiasStatistics& statistics) {
+    for (auto& of_lane : surfaces_) of_lane.clear();
+    for (std::size_t n = 0; n < most_; ++n) add_nth(n, statistics);
+    for (auto& of_lane : surfaces_) std::ranges::stable_sort(of_lane, {}, &MetSurface::depth);
+  }
+
+  [[nodiscard]] const std::vector<MetSurface>& surfaces(int lane) const {
+    return surfaces_[static_cast<std::size_t>(lane)];
+  }
+
+ private:
+  void add_nth(std::size_t n, SlopeBiasStatistics& statistics) {
+    for (int lane = 0; lane < kMapPacketRays; ++lane) {
+      const auto& hits = layer_rays_.hits[static_cast<std::size_t>(lane)];
+      packet_.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      if (n >= hits.size()) continue;
+      packet_.hit.geomID[lane] = hits[n].mesh;
+      packet_.hit.Ng_x[lane] = hits[n].normal.x;
+      packet_.hit.Ng_y[lane] = hits[n].normal.y;
+      packet_.hit.Ng_z[lane] = hits[n].normal.z;
+      packet_.ray.tfar[lane] = hits[n].t;
+    }
+    alignas(64) std::array<float, kMapPacketRays> slopes;
+    bias_.slope_biases(packet_, slopes.data());
+    for (std::size_t lane = 0; lane < kMapPacketRays; ++lane) {
+      const auto& hits = layer_rays_.hits[lane];
+      if (n >= hits.size()) continue;
+      surfaces_[lane].push_back(
+          {map_rays_.origin_z() + hits[n].t + bias_.constant() + slopes[lane], hits[n].opacity});
+      statistics.sum += static_cast<double>(slopes[lane]);
+      statistics.max = std::max(statistics.max, slopes[lane]);
+    }
+  }
+
+  const EmbreeScene& scene_;
+  const MapRays map_rays_;
+  const SurfaceBias bias_;
+  LayerRays layer_rays_;
+  RTCRayHit16 packet_;
+  std::size_t most_ = 0;
+  std::array<std::vector<MetSurface>, kMapPacketRays> surfaces_;
+};
+
+}  // namespace
+
+std::uint64_t trace_layers(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample,
+                           const MapBias& bias, const PacketMask* mask, const SampleMap& map,
+                           std::uint32_t unit, LayerMap& layers, SlopeBiasStatistics& statistics) {
+  LayerTrace trace(scene, grid, sample, bias);
+  std::uint64_t traced = 0;
+  const TexelRect& rect = map.rect();
+  layers.reset(rect);
+  for (std::int32_t y = rect.y0; y < rect.y1; y += kPacketEdge) {
+    for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
+      if (mask != nullptr && !mask->is_wanted(x, y)) continue;
+      traced += kMapPacketRays;
+      if (!trace.trace(x, y)) continue;
+      trace.add_biases(statistics);
+      layers.begin_packet(x, y);
+      for (int lane = 0; lane < kMapPacketRays; ++lane)
+        layers.append(trace.surfaces(lane), map.at(x + lane % kPacketEdge, y + lane / kPacketEdge), unit);
+    }
+  }
+  return traced;
+}
+
+}  // namespace pdsm
