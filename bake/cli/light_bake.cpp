@@ -117,6 +117,8 @@ void skip(const LightBakeInput& input, const MapJob& job, LightOutcome& outcome)
 }
 
 void keep(const LightBakeInput& input, const MapJob& job, const MapKey& key, LightOutcome& outcome) {
+  if (const auto checkpoint = make_checkpoint(input.command.checkpoint, job.output, input.command.quiet))
+    checkpoint->discard(outcome.key);
   tell_warnings(input.command, job.light->name, key.warnings);
   outcome.status = Status::unchanged;
   const bool has_goals = input.command.goals.any();

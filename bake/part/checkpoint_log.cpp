@@ -88,6 +88,20 @@ void CheckpointLog::remove() {
   file_.reset();
 }
 
+void CheckpointLog::discard(const PartHeader& header) {
+  const std::lock_guard guard(mutex_);
+  gave_up_ = true;
+  try {
+    file_ = PartFile::open(settings_.file, PartFile::Open::existing);
+    if (!file_) return;
+    const auto scan = scan_part(MappedFile(settings_.file).bytes());
+    if (scan && scan->header == header) file_->remove();
+  } catch (const Error&) {
+    // It is in nobody's way.
+  }
+  file_.reset();
+}
+
 void CheckpointLog::add(std::span<const std::byte> bytes) {
   const std::lock_guard guard(mutex_);
   if (gave_up_) return;
@@ -143,6 +157,10 @@ Checkpoint::~Checkpoint() = default;
 
 void Checkpoint::remove() {
   log_->remove();
+}
+
+void Checkpoint::discard(const std::string& key) {
+  log_->discard({identity_of(key)});
 }
 
 }  // namespace pdsm

@@ -39,6 +39,8 @@ class CheckpointLog {
   void poll();
   /// Removes the file; nothing is written from here on.
   void remove();
+  /// Instead of begin(): removes the file that is there, if it begins with this header and no one writes it.
+  void discard(const PartHeader& header);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -97,6 +97,24 @@ TEST_F(BakeCheckpoint, AnotherBakesIsReplacedAndGoes) {
   EXPECT_FALSE(exists("map.pdsm.partial"));
 }
 
+// A bake may be killed between writing its map and removing its checkpoint.
+TEST_F(BakeCheckpoint, OneBesideItsMapGoes) {
+  kill_bake(3000);
+  const std::string left = contents("map.pdsm.partial");
+  ASSERT_EQ(run(bake_with({})).exit_code, 0);
+  const std::string map = contents("map.pdsm");
+  write_file("map.pdsm.partial", left);
+  const Outcome unchanged = run(bake_with({}));
+  EXPECT_NE(unchanged.err.find("unchanged"), std::string::npos) << unchanged.err;
+  EXPECT_FALSE(exists("map.pdsm.partial"));
+  EXPECT_TRUE(contents("map.pdsm") == map);
+  // That of another bake of the same name does not.
+  ASSERT_EQ(run(bake_with({"--seed", "3", "--force"})).exit_code, 0);
+  write_file("map.pdsm.partial", left);
+  ASSERT_EQ(run(bake_with({"--seed", "3"})).exit_code, 0);
+  EXPECT_TRUE(contents("map.pdsm.partial") == left);
+}
+
 TEST_F(BakeCheckpoint, NoCheckpointNeitherReadsNorWrites) {
   write_file("map.pdsm.partial", "not ours");
   const Outcome outcome = run(bake_with({"--no-checkpoint"}));

@@ -36,6 +36,10 @@ class Checkpoint {
   /// Call when the result has been written: the file goes.
   void remove();
 
+  /// Call instead of bake() when a map of this key (map_key.h) is there: what a bake of it has left that was
+  /// killed right after writing its result goes, all else stays.
+  void discard(const std::string& key);
+
   /// For bake().
   [[nodiscard]] CheckpointLog& log() { return *log_; }
 
