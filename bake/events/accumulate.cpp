@@ -9,19 +9,9 @@
 namespace pdsm {
 
 void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events) {
-  // Slot t + 2 counts texel t; after the running sum, slot t + 1 is where texel t's next key goes, and
-  // once all are placed, slot t + 1 has become texel t's end.
-  events.first.assign(texel_count + 2, 0);
-  for (const EventLog* log : logs) {
-    log->for_each([&](PackedEvent event) { ++events.first[event_texel(event) + 2]; });
-  }
-  for (std::size_t t = 2; t < events.first.size(); ++t) events.first[t] += events.first[t - 1];
-  events.keys.resize(events.first.back());
-  for (const EventLog* log : logs) {
-    log->for_each(
-        [&](PackedEvent event) { events.keys[events.first[event_texel(event) + 1]++] = event_key(event); });
-  }
-  events.first.pop_back();
+  gather_by_texel(
+      logs, texel_count, [](PackedEvent event) { return event_texel(event); },
+      [](PackedEvent event) { return event_key(event); }, events);
 }
 
 void accumulate(std::span<EventKey> keys, StepFunction& function, std::vector<EventKey>& room) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "events/event_log.h"
+#include "events/gather_by_texel.h"
 
 namespace pdsm {
 
@@ -16,14 +17,9 @@ struct StepFunction {
   std::vector<std::uint32_t> count;
 };
 
-/// Events of a block, gathered by texel: texel t owns keys[first[t]] .. keys[first[t + 1] - 1].
-struct BlockEvents {
-  std::vector<std::uint32_t> first;
-  std::vector<EventKey> keys;
-};
+using BlockEvents = TexelKeys<EventKey>;
 
-/// Gathers the events that several threads logged for one block of `texel_count` texels. Counting sort:
-/// the order within a texel is not defined (see accumulate()).
+/// gather_by_texel(); accumulate() sorts what a texel has.
 void gather_events(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockEvents& events);
 
 /// Sorts the keys of one texel and sums them up (sum_events). `room` is to work in.

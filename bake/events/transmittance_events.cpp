@@ -4,7 +4,7 @@
 namespace pdsm {
 namespace {
 
-constexpr std::uint32_t kMagnitudeShift = 44, kTexelMask = 0xfff;
+constexpr std::uint32_t kTexelMask = 0xfff;
 
 std::uint32_t texel_of(PackedEvent event) {
   return event_texel(event) & kTexelMask;
@@ -28,17 +28,7 @@ std::int64_t change_of(ChangeKey key, std::uint32_t unit) {
 }  // namespace
 
 void gather_changes(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockChanges& changes) {
-  // As in gather_events().
-  changes.first.assign(texel_count + 2, 0);
-  for (const EventLog* log : logs)
-    log->for_each([&](PackedEvent event) { ++changes.first[texel_of(event) + 2]; });
-  for (std::size_t t = 2; t < changes.first.size(); ++t) changes.first[t] += changes.first[t - 1];
-  changes.keys.resize(changes.first.back());
-  for (const EventLog* log : logs) {
-    log->for_each(
-        [&](PackedEvent event) { changes.keys[changes.first[texel_of(event) + 1]++] = change_key(event); });
-  }
-  changes.first.pop_back();
+  gather_by_texel(logs, texel_count, texel_of, change_key, changes);
 }
 
 void join_quads(const BlockChanges& texels, std::uint32_t width, std::uint32_t height, BlockChanges& quads) {

@@ -8,6 +8,7 @@
 
 #include "events/accumulate.h"
 #include "events/event_log.h"
+#include "events/gather_by_texel.h"
 
 /// Events of bakes with translucent casters: a light sample's transmittance changes by so many units of 1/L.
 /// A packed event (event_log.h) has 20 bits left above its texel; 0 there stands for L, the whole sample. So
@@ -23,23 +24,22 @@ inline constexpr std::uint32_t kMostTransmittanceUnit = 1U << 20;
   return std::min(kMostTransmittanceUnit, ~0U / samples);
 }
 
+/// Where in a packed event the magnitude is, above 12 bits of texel.
+inline constexpr int kMagnitudeShift = 44;
+
 /// A change by `change` units, 1 .. `unit`.
 [[nodiscard]] inline PackedEvent pack_change(std::uint32_t texel, float depth, std::uint32_t change,
                                              std::uint32_t unit, bool unblocks) {
   const PackedEvent magnitude = change == unit ? 0 : change;
-  return magnitude << 44 | pack_event(texel, depth, unblocks);
+  return magnitude << kMagnitudeShift | pack_event(texel, depth, unblocks);
 }
 
 /// Orders by depth: an EventKey, and below it the magnitude.
 using ChangeKey = std::uint64_t;
 
-/// The events of a block by texel, as BlockEvents.
-struct BlockChanges {
-  std::vector<std::uint32_t> first;
-  std::vector<ChangeKey> keys;
-};
+using BlockChanges = TexelKeys<ChangeKey>;
 
-/// As gather_events().
+/// gather_by_texel(); sum_changes() sorts what a texel has.
 void gather_changes(std::span<const EventLog* const> logs, std::uint32_t texel_count, BlockChanges& changes);
 
 /// As merge_quads(), of keys in any order: texels' keys follow each other.
