@@ -41,11 +41,7 @@ std::shared_ptr<const CutoutMask> make_mask(AlphaImage image, const std::array<M
 
 std::shared_ptr<const CutoutMask> make_blend(AlphaImage image, const std::array<MaskWrap, 2>& wrap) {
   if (std::ranges::all_of(image.alpha, [](std::uint8_t alpha) { return alpha == 255; })) return nullptr;
-  CutoutMask mask;
-  mask.width = image.width;
-  mask.height = image.height;
-  mask.alpha = std::move(image.alpha);
-  mask.wrap = wrap;
+  CutoutMask mask{image.width, image.height, std::move(image.alpha), wrap};
   mask.blends = true;
   return std::make_shared<const CutoutMask>(std::move(mask));
 }

@@ -114,24 +114,23 @@ Mesh to_mesh(const aiMesh& source) {
   return mesh;
 }
 
-/// The diffuse colour, when the file itself names a material.
-std::optional<glm::vec3> base_color(const aiScene& scene, const aiMesh& mesh) {
-  if (mesh.mMaterialIndex >= scene.mNumMaterials) return std::nullopt;
-  const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+/// The name of a mesh's material, when the file itself has named it.
+std::optional<std::string> given_name(const aiScene& scene, const aiMesh& mesh) {
   aiString name;
-  aiColor3D color;
-  const bool made_up = material.Get(AI_MATKEY_NAME, name) != aiReturn_SUCCESS ||
-                       std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0;
-  if (made_up || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
-  return glm::clamp(glm::vec3(color.r, color.g, color.b), 0.0F, 1.0F);
-}
-
-std::string material_name(const aiScene& scene, const aiMesh& mesh) {
-  aiString name;
-  const bool named = mesh.mMaterialIndex < scene.mNumMaterials &&
+  const bool given = mesh.mMaterialIndex < scene.mNumMaterials &&
                      scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
                      std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) != 0;
-  return named ? name.C_Str() : "";
+  if (!given) return std::nullopt;
+  return name.C_Str();
+}
+
+/// The diffuse colour of such a material.
+std::optional<glm::vec3> base_color(const aiScene& scene, const aiMesh& mesh) {
+  aiColor3D color;
+  if (!given_name(scene, mesh) ||
+      scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS)
+    return std::nullopt;
+  return glm::clamp(glm::vec3(color.r, color.g, color.b), 0.0F, 1.0F);
 }
 
 /// The names of a node and its parents.
@@ -154,7 +153,7 @@ void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector&
     for (const unsigned index : std::span(node->mMeshes, node->mNumMeshes)) {
       if (index >= scene.mNumMeshes) continue;
       const aiMesh& mesh = *scene.mMeshes[index];
-      const PartNames names{node_names(node), material_name(scene, mesh)};
+      const PartNames names{node_names(node), given_name(scene, mesh).value_or("")};
       if (!meshes[index]) {
         Mesh raw = to_mesh(mesh);
         cutouts.cut_out(mesh, raw);

@@ -67,10 +67,10 @@ struct GltfCutouts::Cutout {
 };
 
 void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
-  if (primitive.material < 0 || static_cast<std::size_t>(primitive.material) >= model_.materials.size())
-    return;
+  const tinygltf::Material* found = find_element(model_.materials, primitive.material);
+  if (found == nullptr) return;
   const auto material = static_cast<std::size_t>(primitive.material);
-  const std::string& mode = model_.materials[material].alphaMode;
+  const std::string& mode = found->alphaMode;
   if ((mode != "MASK" && mode != kBlend) || mesh.positions.empty()) return;
   try {
     const Cutout& cutout = cutout_of(material);
@@ -85,14 +85,14 @@ void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
   }
 }
 
-double GltfCutouts::opacity(int material) const {
-  if (material < 0 || static_cast<std::size_t>(material) >= model_.materials.size()) return 1;
-  const auto index = static_cast<std::size_t>(material);
-  if (model_.materials[index].alphaMode != kBlend) return 1;
+double GltfCutouts::opacity(int index) const {
+  const tinygltf::Material* material = find_element(model_.materials, index);
+  if (material == nullptr || material->alphaMode != kBlend) return 1;
   try {
-    return opacity_of(model_.materials[index]);
+    return opacity_of(*material);
   } catch (const FormatFault& fault) {
-    throw Error(Failure::input, name_.string() + ":" + name_of(index), one_line(fault.what()));
+    throw Error(Failure::input, name_.string() + ":" + name_of(static_cast<std::size_t>(index)),
+                one_line(fault.what()));
   }
 }
 

@@ -26,7 +26,7 @@ class GltfCutouts {
   void cut_out(const tinygltf::Primitive& primitive, Mesh& mesh);
 
   /// The opacity of a material, besides what its mask says. Throws as cut_out() does.
-  [[nodiscard]] double opacity(int material) const;
+  [[nodiscard]] double opacity(int index) const;
 
  private:
   struct Cutout;

@@ -142,17 +142,17 @@ Mesh to_mesh(const tinygltf::Model& model, const tinygltf::Primitive& primitive)
   return mesh;
 }
 
-std::optional<glm::vec3> base_color(const tinygltf::Model& model, int material) {
-  if (material < 0 || static_cast<std::size_t>(material) >= model.materials.size()) return std::nullopt;
-  const auto& factor =
-      model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness.baseColorFactor;
+std::optional<glm::vec3> base_color(const tinygltf::Model& model, int index) {
+  const tinygltf::Material* material = find_element(model.materials, index);
+  if (material == nullptr) return std::nullopt;
+  const auto& factor = material->pbrMetallicRoughness.baseColorFactor;
   if (factor.size() < 3) return std::nullopt;
   return glm::clamp(glm::vec3(factor[0], factor[1], factor[2]), 0.0F, 1.0F);
 }
 
-std::string material_name(const tinygltf::Model& model, int material) {
-  const auto index = static_cast<std::size_t>(material);
-  return material >= 0 && index < model.materials.size() ? model.materials[index].name : "";
+std::string material_name(const tinygltf::Model& model, int index) {
+  const tinygltf::Material* material = find_element(model.materials, index);
+  return material != nullptr ? material->name : "";
 }
 
 glm::dmat4 rotation_matrix(const std::vector<double>& quaternion) {
