@@ -24,16 +24,14 @@ bool is_repeated(const TranslucentSurfaces::Crossing& a, const TranslucentSurfac
 }  // namespace
 
 TranslucentSurfaces::TranslucentSurfaces(const Scene& scene, const WorldScene& casters) : casters_(casters) {
-  bool all_opaque = true;
+  std::ranges::for_each(scene.geometry, check_opacity);
+  if (std::ranges::none_of(scene.geometry, is_translucent_caster)) return;
   for (const Geometry& geometry : scene.geometry) {
-    check_opacity(geometry);
     Surface& surface = surfaces_.emplace_back();
     surface.opacity = geometry.opacity;
     if (geometry.mesh && geometry.mesh->mask && geometry.mesh->mask->blends)
       surface.blending = geometry.mesh->mask;
-    all_opaque = all_opaque && (surface.is_opaque() || !casts_shadows(geometry));
   }
-  if (all_opaque) surfaces_.clear();
 }
 
 bool TranslucentSurfaces::cross(const RTCFilterFunctionNArguments& args, unsigned lane,

@@ -84,7 +84,7 @@ struct DiskLight {
 /// Whether it takes away a part of the light only, somewhere.
 [[nodiscard]] inline bool is_translucent_caster(const Geometry& geometry) {
   return casts_shadows(geometry) &&
-         (geometry.opacity != 1 || (geometry.mesh->mask && geometry.mesh->mask->blends));
+         (geometry.opacity != 1 || (geometry.mesh && geometry.mesh->mask && geometry.mesh->mask->blends));
 }
 
 /// Throws Error (input) "name:opacity: reason" for one outside of 0 .. 1, or NaN. Baking calls it.
