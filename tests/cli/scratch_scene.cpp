@@ -47,6 +47,14 @@ Outcome ScratchScene::run(const std::vector<std::string>& arguments, RunSetup se
   return run_pdsm(arguments, setup);
 }
 
+double ScratchScene::value(const std::vector<std::string>& arguments, const std::string& point) const {
+  RunSetup setup;
+  setup.input = point + "\n";
+  const Outcome outcome = run(arguments, setup);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return std::stod(outcome.out);
+}
+
 void ScratchScene::bake_small(const std::string& output, std::vector<std::string> extra) const {
   std::vector<std::string> arguments{"bake", "one.scene.json", "-o", output, "--quiet", "--samples",
                                      "16",   "--resolution",   "32"};

@@ -21,6 +21,9 @@ class ScratchScene : public ::testing::Test {
   /// Runs pdsm in the folder.
   [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, RunSetup setup = {}) const;
 
+  /// What query or truth, called with `arguments`, answers to one point; fails the test when it fails.
+  [[nodiscard]] double value(const std::vector<std::string>& arguments, const std::string& point) const;
+
   /// Bakes one.scene.json quickly; extra arguments come last. Fails the test when it fails.
   void bake_small(const std::string& output, std::vector<std::string> extra = {}) const;
 

@@ -23,13 +23,6 @@ class TranslucencyCommand : public ScratchScene {
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     return run(arguments);
   }
-  [[nodiscard]] double value(const std::vector<std::string>& arguments, const std::string& point) const {
-    RunSetup setup;
-    setup.input = point + "\n";
-    const Outcome outcome = run(arguments, setup);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return std::stod(outcome.out);
-  }
 };
 
 TEST_F(TranslucencyCommand, FromBakeToError) {
