@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cli/options.h"
+#include "cli/command_line.h"
 #include "cli/parse_camera.h"
-#include "cli/streams.h"
 #include "evaluate/image_io.h"
 #include "pdsm/format/error.h"
 #include "session.h"
@@ -53,48 +51,46 @@ void choose_shown(const std::string& list, Settings& settings) {
   }
 }
 
-void add_picture_options(CLI::App& app, RawArguments& raw) {
+void add_picture_options(Options takes, RawArguments& raw) {
   Arguments& parsed = raw.parsed;
-  app.add_option_function<std::string>(
-         "--camera", [&parsed](const std::string& text) { parsed.camera = parse_camera(text); },
-         "As pdsm render; default: a three-quarter view of the casters")
-      ->type_name("EX,EY,EZ,TX,TY,TZ,FOV");
-  app.add_option_function<std::string>(
-         "--size",
-         [&parsed](const std::string& text) {
-           const auto size = parse_size("--size", text, kLargestEdge);
-           if (std::min(size[0], size[1]) < kSmallestEdge) refuse_value("--size", "at least 16x16", text);
-           parsed.width = static_cast<int>(size[0]);
-           parsed.height = static_cast<int>(size[1]);
-         },
-         "Pixels of the window; default 1280x720")
-      ->type_name("WxH");
-  app.add_option("--screenshot", raw.screenshot, "Draw without a visible window, write this picture and end")
-      ->type_name("FILE.png");
-  add_count(app, "--frames", raw.frames, 1, kMostFrames, "Frames of 1/60 s before the screenshot; default 1");
-  app.add_flag("--no-ui", raw.no_ui, "No panels in the screenshot");
+  takes.value(
+      "--camera", "EX,EY,EZ,TX,TY,TZ,FOV",
+      [&parsed](const std::string& text) { parsed.camera = parse_camera(text); },
+      "As pdsm render; default: a three-quarter view of the casters");
+  takes.value(
+      "--size", "WxH",
+      [&parsed](const std::string& text) {
+        const auto size = parse_size("--size", text, kLargestEdge);
+        if (std::min(size[0], size[1]) < kSmallestEdge) refuse_value("--size", "at least 16x16", text);
+        parsed.width = static_cast<int>(size[0]);
+        parsed.height = static_cast<int>(size[1]);
+      },
+      "Pixels of the window; default 1280x720");
+  takes.text("--screenshot", "FILE.png", raw.screenshot,
+             "Draw without a visible window, write this picture and end");
+  takes.count("--frames", raw.frames, 1, kMostFrames, "Frames of 1/60 s before the screenshot; default 1");
+  takes.flag("--no-ui", raw.no_ui, "No panels in the screenshot");
 }
 
-void add_view_options(CLI::App& app, RawArguments& raw) {
+void add_view_options(Options takes, RawArguments& raw) {
   Settings& settings = raw.parsed.settings;
-  add_choice<Mode>(app, "--mode", settings.mode,
-                   {{"shaded", Mode::shaded},
-                    {"visibility", Mode::visibility},
-                    {"truth", Mode::truth},
-                    {"error", Mode::error},
-                    {"slice", Mode::slice},
-                    {"function", Mode::function}},
-                   "What is shown at first; keys 1 to 6");
-  add_choice<Filter>(app, "--filter", settings.filter,
-                     {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}}, "Default bilinear");
-  add_choice<TextureLayout>(
-      app, "--layout", settings.layout,
+  takes.choice<Mode>("--mode", settings.mode,
+                     {{"shaded", Mode::shaded},
+                      {"visibility", Mode::visibility},
+                      {"truth", Mode::truth},
+                      {"error", Mode::error},
+                      {"slice", Mode::slice},
+                      {"function", Mode::function}},
+                     "What is shown at first; keys 1 to 6");
+  takes.choice<Filter>("--filter", settings.filter,
+                       {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}}, "Default bilinear");
+  takes.choice<TextureLayout>(
+      "--layout", settings.layout,
       {{"two-level", TextureLayout::two_level}, {"fixed-depth", TextureLayout::fixed_depth}},
       "How the maps lie in textures; default two-level");
-  app.add_option_function<std::string>(
-         "--show", [&settings](const std::string& list) { choose_shown(list, settings); },
-         "none, or some of object,particles,fog,gizmos,frustum,plot; default object,particles,gizmos")
-      ->type_name("LIST");
+  takes.value(
+      "--show", "LIST", [&settings](const std::string& list) { choose_shown(list, settings); },
+      "none, or some of object,particles,fog,gizmos,frustum,plot; default object,particles,gizmos");
 }
 
 void take_files(const std::vector<std::string>& files, Arguments& arguments) {
@@ -131,33 +127,22 @@ Arguments checked(const RawArguments& raw) {
 }  // namespace
 
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
-  CLI::App app("Shows what was baked, what moves through it, and how far it is from the truth.",
-               "pdsm-viewer");
-  RawArguments raw;
-  app.set_version_flag("--version", "pdsm-viewer " PDSM_VERSION);
-  app.add_option("FILE", raw.files,
-                 "A scene, and maps of its lights, in any order; or drop them on the window")
-      ->type_name("");
-  add_view_options(app, raw);
-  add_picture_options(app, raw);
-  app.footer(
+  CommandLine line(
+      "pdsm-viewer", "Shows what was baked, what moves through it, and how far it is from the truth.",
+      "pdsm-viewer " PDSM_VERSION,
       "Left drag orbits, middle drag pans, the wheel zooms; right drag looks, WASD and QE fly; F frames the "
       "scene,\n"
       "1 to 6 choose the mode, a click pins the function, P pauses, F12 takes a screenshot (with Shift: "
       "without\n"
       "panels), H hides the panels.\n"
       "Exit codes: 0 ok, 2 usage, 3 bad input, 4 output or resource.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForVersion& version) {
-    write_result(std::string(version.what()) + "\n");
-    return std::nullopt;
-  } catch (const CLI::Success&) {
-    write_result(app.help());
-    return std::nullopt;
-  } catch (const CLI::Error& error) {
-    throw Error(Failure::usage, "", std::string(error.what()) + " (--help tells more)");
-  }
+  RawArguments raw;
+  Options takes = line.options();
+  takes.texts("FILE", "", raw.files,
+              "A scene, and maps of its lights, in any order; or drop them on the window");
+  add_view_options(takes, raw);
+  add_picture_options(takes, raw);
+  if (!line.parse(argc, argv)) return std::nullopt;
   return checked(raw);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "choose/goals.h"
 #include "choose/quality.h"
 #include "cli/checkpoint_choice.h"
+#include "cli/options.h"
 #include "cli/progress_line.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/bake/shard.h"
@@ -39,7 +39,7 @@ struct BakeCommand {
 [[nodiscard]] ProgressStyle progress_style(const BakeCommand& command);
 
 /// Puts the options on `sub`; they write to `command`, which must outlive parsing.
-void add_bake_options(CLI::App& sub, BakeCommand& command);
+void add_bake_options(Options& takes, BakeCommand& command);
 
 /// The options for one light. With goals, the light's own samples and resolution do not count.
 [[nodiscard]] BakeOptions options_for(const BakeCommand& command, const Light& light);

@@ -6,13 +6,13 @@
 
 namespace pdsm {
 
-void add_checkpoint_options(CLI::App& sub, CheckpointChoice& choice) {
+void add_checkpoint_options(Options& takes, CheckpointChoice& choice) {
   constexpr double kMostSeconds = 1e6;
-  CLI::Option* interval =
-      add_real(sub, "--checkpoint", choice.interval, 0, kMostSeconds,
-               "Seconds between saves of what is done to OUTPUT.partial, with which the next "
-               "such bake goes on; default 10");
-  sub.add_flag("--no-checkpoint", choice.none, "Neither read nor write OUTPUT.partial")->excludes(interval);
+  const Option interval =
+      takes.real("--checkpoint", choice.interval, 0, kMostSeconds,
+                 "Seconds between saves of what is done to OUTPUT.partial, with which the next "
+                 "such bake goes on; default 10");
+  takes.flag("--no-checkpoint", choice.none, "Neither read nor write OUTPUT.partial").excludes(interval);
 }
 
 std::unique_ptr<Checkpoint> make_checkpoint(const CheckpointChoice& choice,

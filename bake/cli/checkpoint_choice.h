@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 
+#include "cli/options.h"
 #include "pdsm/bake/checkpoint.h"
 
 namespace pdsm {
@@ -15,7 +15,7 @@ struct CheckpointChoice {
   bool none = false;
 };
 
-void add_checkpoint_options(CLI::App& sub, CheckpointChoice& choice);
+void add_checkpoint_options(Options& takes, CheckpointChoice& choice);
 
 /// The checkpoint of a bake into `output`: OUTPUT.partial. Null when none is wanted.
 [[nodiscard]] std::unique_ptr<Checkpoint> make_checkpoint(const CheckpointChoice& choice,

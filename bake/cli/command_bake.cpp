@@ -131,11 +131,11 @@ int run_bake(const BakeCommand& command) {
 
 }  // namespace
 
-void add_bake_command(CLI::App& app, Run& run) {
+void add_bake_command(CommandLine& line) {
   auto command = std::make_shared<BakeCommand>();
-  CLI::App& sub = *app.add_subcommand("bake", "Bake the maps of a scene's lights");
-  add_bake_options(sub, *command);
-  sub.callback([command, &run] { run = [command] { return run_bake(*command); }; });
+  Options takes =
+      line.add_command("bake", "Bake the maps of a scene's lights", [command] { return run_bake(*command); });
+  add_bake_options(takes, *command);
 }
 
 }  // namespace pdsm

@@ -26,11 +26,11 @@ int run_check(const std::string& map) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Run& run) {
+void add_check_command(CommandLine& line) {
   auto map = std::make_shared<std::string>();
-  CLI::App& command = *app.add_subcommand("check", "Validate a map fully; names the first fault");
-  add_file(command, "FILE", *map, "Map");
-  command.callback([map, &run] { run = [map] { return run_check(*map); }; });
+  Options takes = line.add_command("check", "Validate a map fully; names the first fault",
+                                   [map] { return run_check(*map); });
+  takes.file("FILE", *map, "Map");
 }
 
 }  // namespace pdsm

@@ -62,16 +62,16 @@ int run_diff(const DiffOptions& options) {
 
 }  // namespace
 
-void add_diff_command(CLI::App& app, Run& run) {
+void add_diff_command(CommandLine& line) {
   auto options = std::make_shared<DiffOptions>();
-  CLI::App& command = *app.add_subcommand("diff", "Compare the functions of two maps");
-  add_file(command, "A", options->a, "Map");
-  add_file(command, "B", options->b, "Map of the same light and size");
-  add_real(command, "--tolerance", options->tolerance, 0, 1,
-           "Exit 1 when the largest difference is above it; default 0");
-  command.add_option("-o,--output", options->image, "Write each texel's largest difference as a picture")
-      ->type_name("IMAGE.png");
-  command.callback([options, &run] { run = [options] { return run_diff(*options); }; });
+  Options takes =
+      line.add_command("diff", "Compare the functions of two maps", [options] { return run_diff(*options); });
+  takes.file("A", options->a, "Map");
+  takes.file("B", options->b, "Map of the same light and size");
+  takes.real("--tolerance", options->tolerance, 0, 1,
+             "Exit 1 when the largest difference is above it; default 0");
+  takes.text("-o,--output", "IMAGE.png", options->image,
+             "Write each texel's largest difference as a picture");
 }
 
 }  // namespace pdsm

@@ -22,13 +22,12 @@ int run_export(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export_command(CLI::App& app, Run& run) {
+void add_export_command(CommandLine& line) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App& command =
-      *app.add_subcommand("export", "A map to an OpenEXR deep image (Nuke, Natron, oiiotool)");
-  add_file(command, "FILE", options->input, "Map");
-  command.add_option("-o,--output", options->output, "Deep image to write")->required();
-  command.callback([options, &run] { run = [options] { return run_export(*options); }; });
+  Options takes = line.add_command("export", "A map to an OpenEXR deep image (Nuke, Natron, oiiotool)",
+                                   [options] { return run_export(*options); });
+  takes.file("FILE", options->input, "Map");
+  takes.text("-o,--output", "FILE", options->output, "Deep image to write").required();
 }
 
 }  // namespace pdsm

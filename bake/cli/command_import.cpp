@@ -22,12 +22,12 @@ int run_import(const ImportOptions& options) {
 
 }  // namespace
 
-void add_import_command(CLI::App& app, Run& run) {
+void add_import_command(CommandLine& line) {
   auto options = std::make_shared<ImportOptions>();
-  CLI::App& command = *app.add_subcommand("import", "A deep image that `pdsm export` wrote back to a map");
-  add_file(command, "DEEP", options->input, "Deep image");
-  command.add_option("-o,--output", options->output, "Map to write")->required();
-  command.callback([options, &run] { run = [options] { return run_import(*options); }; });
+  Options takes = line.add_command("import", "A deep image that `pdsm export` wrote back to a map",
+                                   [options] { return run_import(*options); });
+  takes.file("DEEP", options->input, "Deep image");
+  takes.text("-o,--output", "FILE", options->output, "Map to write").required();
 }
 
 }  // namespace pdsm

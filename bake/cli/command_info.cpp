@@ -197,12 +197,12 @@ int run_info(const InfoOptions& options) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, Run& run) {
+void add_info_command(CommandLine& line) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App& command = *app.add_subcommand("info", "What is in a map, and what it was made of");
-  add_file(command, "FILE", options->map, "Map");
-  command.add_flag("--json", options->json, "Print JSON");
-  command.callback([options, &run] { run = [options] { return run_info(*options); }; });
+  Options takes = line.add_command("info", "What is in a map, and what it was made of",
+                                   [options] { return run_info(*options); });
+  takes.file("FILE", options->map, "Map");
+  takes.flag("--json", options->json, "Print JSON");
 }
 
 }  // namespace pdsm

@@ -67,18 +67,15 @@ int run_merge(const MergeCommand& command) {
 
 }  // namespace
 
-void add_merge_command(CLI::App& app, Run& run) {
+void add_merge_command(CommandLine& line) {
   auto command = std::make_shared<MergeCommand>();
-  CLI::App& sub = *app.add_subcommand("merge", "Join the shards of a bake to its map");
-  sub.add_option("SHARD", command->shards, "Shards of one bake, all of them, in any order")
-      ->required()
-      ->type_name("FILE");
-  sub.add_option("-o,--output", command->output, "Map to write")->required()->type_name("FILE");
-  sub.add_option("--report", command->report, "Write what the shards took, all together")
-      ->type_name("FILE.json");
-  add_count(sub, "--threads", command->threads, 0, 1024, "Default 0: all processors");
-  sub.add_flag("--quiet", command->quiet, "Nothing but errors on stderr");
-  sub.callback([command, &run] { run = [command] { return run_merge(*command); }; });
+  Options takes = line.add_command("merge", "Join the shards of a bake to its map",
+                                   [command] { return run_merge(*command); });
+  takes.texts("SHARD", "FILE", command->shards, "Shards of one bake, all of them, in any order").required();
+  takes.text("-o,--output", "FILE", command->output, "Map to write").required();
+  takes.text("--report", "FILE.json", command->report, "Write what the shards took, all together");
+  takes.count("--threads", command->threads, 0, 1024, "Default 0: all processors");
+  takes.flag("--quiet", command->quiet, "Nothing but errors on stderr");
 }
 
 }  // namespace pdsm

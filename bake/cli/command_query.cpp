@@ -49,15 +49,15 @@ int run_query(const QueryOptions& options) {
 
 }  // namespace
 
-void add_query_command(CLI::App& app, Run& run) {
+void add_query_command(CommandLine& line) {
   auto options = std::make_shared<QueryOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "query", "Attenuation at points: world points \"x y z\" on stdin, one number a line on stdout");
-  add_file(command, "FILE", options->map, "Map");
-  add_choice(command, "--filter", options->filter,
-             {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}}, "Default: bilinear");
-  command.add_flag("--status", options->status, "Append inside, outside, behind or past-end");
-  command.callback([options, &run] { run = [options] { return run_query(*options); }; });
+  Options takes = line.add_command(
+      "query", "Attenuation at points: world points \"x y z\" on stdin, one number a line on stdout",
+      [options] { return run_query(*options); });
+  takes.file("FILE", options->map, "Map");
+  takes.choice("--filter", options->filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
+               "Default: bilinear");
+  takes.flag("--status", options->status, "Append inside, outside, behind or past-end");
 }
 
 }  // namespace pdsm

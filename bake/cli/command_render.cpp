@@ -17,6 +17,7 @@
 #include "evaluate/render.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/bake/view_fit.h"
+#include "pdsm/format/error.h"
 #include "pdsm/format/map_file.h"
 
 namespace pdsm {
@@ -97,35 +98,32 @@ int run_render(RenderCommand command) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, Run& run) {
+void add_render_command(CommandLine& line) {
   auto command = std::make_shared<RenderCommand>();
   RenderOptions& options = command->options;
-  CLI::App& sub = *app.add_subcommand("render", "A picture of a scene with its maps' shadows");
-  sub.add_option("FILE", command->files, "Maps, then the scene file; the scene alone with --truth")
-      ->required()
-      ->type_name("");
-  sub.add_option("-o,--output", command->output, "Picture to write; EXR: linear light")
-      ->required()
-      ->type_name("IMAGE.png|.exr");
-  sub.add_option_function<std::string>(
-         "--camera", [&options](const std::string& text) { options.camera = parse_camera(text); },
-         "Default: a three-quarter view of the casters. fov in degrees, of the shorter side")
-      ->type_name("EX,EY,EZ,TX,TY,TZ,FOV");
-  sub.add_option_function<std::string>(
-         "--size",
-         [&options](const std::string& text) {
-           const auto size = parse_size("--size", text, kMostTexels);
-           options.width = size[0];
-           options.height = size[1];
-         },
-         "Pixels; default 960x720")
-      ->type_name("WxH");
-  add_count(sub, "--supersample", options.supersample, 1, 8, "Rays a pixel along each axis; default 2");
-  sub.add_flag("--truth", command->truth, "Shadows by shadow rays instead of the maps");
-  sub.add_flag("--difference", command->difference, "Heat map of |map - truth|; EXR: map - truth, signed");
-  add_count(sub, "--truth-samples", options.truth_samples, 1, kMostSamples,
-            "Shadow rays a viewing ray; default 256");
-  sub.callback([command, &run] { run = [command] { return run_render(*command); }; });
+  Options takes = line.add_command("render", "A picture of a scene with its maps' shadows",
+                                   [command] { return run_render(*command); });
+  takes.texts("FILE", "", command->files, "Maps, then the scene file; the scene alone with --truth")
+      .required();
+  takes.text("-o,--output", "IMAGE.png|.exr", command->output, "Picture to write; EXR: linear light")
+      .required();
+  takes.value(
+      "--camera", "EX,EY,EZ,TX,TY,TZ,FOV",
+      [&options](const std::string& text) { options.camera = parse_camera(text); },
+      "Default: a three-quarter view of the casters. fov in degrees, of the shorter side");
+  takes.value(
+      "--size", "WxH",
+      [&options](const std::string& text) {
+        const auto size = parse_size("--size", text, kMostTexels);
+        options.width = size[0];
+        options.height = size[1];
+      },
+      "Pixels; default 960x720");
+  takes.count("--supersample", options.supersample, 1, 8, "Rays a pixel along each axis; default 2");
+  takes.flag("--truth", command->truth, "Shadows by shadow rays instead of the maps");
+  takes.flag("--difference", command->difference, "Heat map of |map - truth|; EXR: map - truth, signed");
+  takes.count("--truth-samples", options.truth_samples, 1, kMostSamples,
+              "Shadow rays a viewing ray; default 256");
 }
 
 }  // namespace pdsm

@@ -109,30 +109,25 @@ int run_tradeoff(TradeoffCommand command) {
 
 }  // namespace
 
-void add_tradeoff_command(CLI::App& app, Run& run) {
+void add_tradeoff_command(CommandLine& line) {
   auto command = std::make_shared<TradeoffCommand>();
   SweepOptions& options = command->options;
-  CLI::App& sub = *app.add_subcommand("tradeoff", "Error, time and size of a light's map over its settings");
-  add_file(sub, "SCENE", command->scene, "Scene file");
-  sub.add_option("-o,--output", command->output, "Folder for tables, plots and one HTML page")
-      ->required()
-      ->type_name("DIR");
-  sub.add_option("--light", command->light, "Needed when the scene has several")->type_name("NAME");
-  add_choice(sub, "--effort", options.effort,
-             {{"quick", Effort::quick}, {"normal", Effort::normal}, {"full", Effort::full}},
-             "How many settings; default normal");
-  add_count(sub, "--points", options.verify.points, 1, 100'000'000,
-            "Points, half on surfaces and half in free space; default 4000");
-  add_count(sub, "--truth-samples", options.verify.samples, 2, std::uint64_t{1} << 24,
-            "Shadow rays a point; default 4096");
-  sub.add_option_function<std::string>(
-         "--memory",
-         [&options](const std::string& text) { options.options.memory = parse_memory("--memory", text); },
-         "What a bake may take beyond scene and BVH: 256M, 4G; default 4G")
-      ->type_name("SIZE");
-  add_count(sub, "--threads", options.options.threads, 0, 1024, "Default 0: all processors");
-  sub.add_flag("--quiet", command->quiet, "Nothing but errors on stderr");
-  sub.callback([command, &run] { run = [command] { return run_tradeoff(*command); }; });
+  Options takes = line.add_command("tradeoff", "Error, time and size of a light's map over its settings",
+                                   [command] { return run_tradeoff(*command); });
+  takes.file("SCENE", command->scene, "Scene file");
+  takes.text("-o,--output", "DIR", command->output, "Folder for tables, plots and one HTML page").required();
+  takes.text("--light", "NAME", command->light, "Needed when the scene has several");
+  takes.choice("--effort", options.effort,
+               {{"quick", Effort::quick}, {"normal", Effort::normal}, {"full", Effort::full}},
+               "How many settings; default normal");
+  takes.count("--points", options.verify.points, 1, 100'000'000,
+              "Points, half on surfaces and half in free space; default 4000");
+  takes.count("--truth-samples", options.verify.samples, 2, std::uint64_t{1} << 24,
+              "Shadow rays a point; default 4096");
+  takes.memory("--memory", options.options.memory,
+               "What a bake may take beyond scene and BVH: 256M, 4G; default 4G");
+  takes.count("--threads", options.options.threads, 0, 1024, "Default 0: all processors");
+  takes.flag("--quiet", command->quiet, "Nothing but errors on stderr");
 }
 
 }  // namespace pdsm

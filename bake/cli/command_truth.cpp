@@ -38,15 +38,14 @@ int run_truth(const TruthOptions& options) {
 
 }  // namespace
 
-void add_truth_command(CLI::App& app, Run& run) {
+void add_truth_command(CommandLine& line) {
   auto options = std::make_shared<TruthOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "truth", "Attenuation by shadow rays: world points \"x y z\" on stdin, one number a line on stdout");
-  add_file(command, "SCENE", options->scene, "Scene file");
-  command.add_option("--light", options->light, "Light; needed when the scene has several");
-  add_count(command, "--samples", options->samples, 1, std::uint64_t{1} << 24,
-            "Shadow rays a point; default 4096");
-  command.callback([options, &run] { run = [options] { return run_truth(*options); }; });
+  Options takes = line.add_command(
+      "truth", "Attenuation by shadow rays: world points \"x y z\" on stdin, one number a line on stdout",
+      [options] { return run_truth(*options); });
+  takes.file("SCENE", options->scene, "Scene file");
+  takes.text("--light", "NAME", options->light, "Light; needed when the scene has several");
+  takes.count("--samples", options->samples, 1, std::uint64_t{1} << 24, "Shadow rays a point; default 4096");
 }
 
 }  // namespace pdsm

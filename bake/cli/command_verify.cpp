@@ -14,6 +14,7 @@
 #include "cli/verify_report.h"
 #include "evaluate/window_errors.h"
 #include "pdsm/bake/scene_file.h"
+#include "pdsm/format/error.h"
 #include "pdsm/format/map_file.h"
 
 namespace pdsm {
@@ -99,25 +100,24 @@ int run_verify(const VerifyCommand& command) {
 
 }  // namespace
 
-void add_verify_command(CLI::App& app, Run& run) {
+void add_verify_command(CommandLine& line) {
   auto command = std::make_shared<VerifyCommand>();
-  CLI::App& sub = *app.add_subcommand("verify", "Error of a map against shadow rays, and what it is made of");
-  add_file(sub, "FILE", command->map, "Map");
-  add_file(sub, "SCENE", command->scene, "Scene file that it was baked from");
-  add_count(sub, "--points", command->options.points, 1, 100'000'000,
-            "Points, half on surfaces and half in free space; default 4000");
-  add_count(sub, "--samples", command->options.samples, 2, std::uint64_t{1} << 24,
-            "Shadow rays a point; default 4096");
-  add_count(sub, "--seed", command->options.seed, 0, ~std::uint64_t{0}, "Other points; default 0");
-  add_real(sub, "--max-error", command->max_error, 0, 1, "Exit 1 when mean_abs_error is above it");
-  sub.add_flag("--no-budget", command->no_budget, "Leave the error budget out, which takes two bakes");
-  sub.add_option("--heat-map", command->heat_map,
-                 "Write |error| over the window; EXR: look-up - truth, signed")
-      ->type_name("IMAGE.png|.exr");
-  add_count(sub, "--heat-map-samples", command->heat_map_samples, 1, std::uint64_t{1} << 24,
-            "Shadow rays a texel of the heat map; default 256");
-  sub.add_flag("--json", command->json, "Print JSON");
-  sub.callback([command, &run] { run = [command] { return run_verify(*command); }; });
+  Options takes = line.add_command("verify", "Error of a map against shadow rays, and what it is made of",
+                                   [command] { return run_verify(*command); });
+  takes.file("FILE", command->map, "Map");
+  takes.file("SCENE", command->scene, "Scene file that it was baked from");
+  takes.count("--points", command->options.points, 1, 100'000'000,
+              "Points, half on surfaces and half in free space; default 4000");
+  takes.count("--samples", command->options.samples, 2, std::uint64_t{1} << 24,
+              "Shadow rays a point; default 4096");
+  takes.count("--seed", command->options.seed, 0, ~std::uint64_t{0}, "Other points; default 0");
+  takes.real("--max-error", command->max_error, 0, 1, "Exit 1 when mean_abs_error is above it");
+  takes.flag("--no-budget", command->no_budget, "Leave the error budget out, which takes two bakes");
+  takes.text("--heat-map", "IMAGE.png|.exr", command->heat_map,
+             "Write |error| over the window; EXR: look-up - truth, signed");
+  takes.count("--heat-map-samples", command->heat_map_samples, 1, std::uint64_t{1} << 24,
+              "Shadow rays a texel of the heat map; default 256");
+  takes.flag("--json", command->json, "Print JSON");
 }
 
 }  // namespace pdsm

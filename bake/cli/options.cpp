@@ -3,87 +3,57 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
-#include <optional>
-#include <string_view>
+#include <CLI/CLI.hpp>
 
 namespace pdsm {
-namespace {
 
-/// The number that `text` wholly is.
-template <typename Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+Option Option::required() {
+  option_->required();
+  return *this;
 }
 
-/// log2 of the unit that a size ends with, taken off `text`.
-int take_unit(std::string_view& text) {
-  constexpr std::string_view kUnits = "KMGT";
-  if (text.empty()) return 0;
-  const std::size_t unit = kUnits.find(text.back());
-  if (unit == std::string_view::npos) return 0;
-  text.remove_suffix(1);
-  return 10 * static_cast<int>(unit + 1);
+Option Option::needs(Option other) {
+  option_->needs(other.option_);
+  return *this;
 }
 
-}  // namespace
-
-void refuse_value(const std::string& option, const std::string& must_be, const std::string& text) {
-  throw Error(Failure::usage, option, fmt::format("must be {}, not '{}'", must_be, text));
+Option Option::excludes(Option other) {
+  option_->excludes(other.option_);
+  return *this;
 }
 
-CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& target, const std::string& help) {
-  return app.add_option(name, target, help)->required()->type_name("");
+Option Options::value(const std::string& name, const std::string& type,
+                      std::function<void(const std::string&)> take, const std::string& help) {
+  return Option(*app_->add_option_function<std::string>(name, std::move(take), help)->type_name(type));
 }
 
-std::string help_with_range(const std::string& help, double low, double high) {
+Option Options::text(const std::string& name, const std::string& type, std::string& target,
+                     const std::string& help) {
+  return Option(*app_->add_option(name, target, help)->type_name(type));
+}
+
+Option Options::text(const std::string& name, const std::string& type, std::optional<std::string>& target,
+                     const std::string& help) {
+  return value(
+      name, type, [&target](const std::string& text) { target = text; }, help);
+}
+
+Option Options::texts(const std::string& name, const std::string& type, std::vector<std::string>& target,
+                      const std::string& help) {
+  return Option(*app_->add_option(name, target, help)->type_name(type));
+}
+
+Option Options::flag(const std::string& name, bool& target, const std::string& help) {
+  return Option(*app_->add_flag(name, target, help));
+}
+
+Option Options::file(const std::string& name, std::string& target, const std::string& help) {
+  return text(name, "", target, help).required();
+}
+
+std::string Options::with_range(const std::string& help, double low, double high) {
   constexpr double kAny = 0x1p63;
   return high >= kAny ? help : fmt::format("{} ({:.6g} .. {:.6g})", help, low, high);
-}
-
-std::uint64_t parse_count(const std::string& option, const std::string& text, std::uint64_t low,
-                          std::uint64_t high) {
-  const auto value = whole_number<std::uint64_t>(text);
-  if (!value || *value < low || *value > high) {
-    refuse_value(option, fmt::format("a whole number {} .. {}", low, high), text);
-  }
-  return *value;
-}
-
-double parse_real(const std::string& option, const std::string& text, double low, double high) {
-  const auto value = whole_number<double>(text);
-  if (!value || !(*value >= low && *value <= high)) {
-    refuse_value(option, fmt::format("a number {} .. {}", low, high), text);
-  }
-  return *value;
-}
-
-std::array<std::uint32_t, 2> parse_size(const std::string& option, const std::string& text,
-                                        std::uint32_t most) {
-  const std::size_t cross = text.find('x');
-  const auto width = whole_number<std::uint32_t>(std::string_view(text).substr(0, cross));
-  const auto height = cross == std::string::npos
-                          ? width
-                          : whole_number<std::uint32_t>(std::string_view(text).substr(cross + 1));
-  const auto fits = [most](const std::optional<std::uint32_t>& n) { return n && *n >= 1 && *n <= most; };
-  if (!fits(width) || !fits(height)) refuse_value(option, fmt::format("R or WxH, each 1 .. {}", most), text);
-  return {*width, *height};
-}
-
-std::uint64_t parse_memory(const std::string& option, const std::string& text) {
-  constexpr double kMostBytes = 0x1p60;
-  std::string_view digits = text;
-  const int unit = take_unit(digits);
-  const auto value = whole_number<double>(digits);
-  const double bytes = value ? std::ldexp(*value, unit) : 0;
-  if (!(bytes >= 1 && bytes <= kMostBytes)) {
-    refuse_value(option, "a size such as 268435456, 256M or 4G", text);
-  }
-  return static_cast<std::uint64_t>(bytes);
 }
 
 }  // namespace pdsm

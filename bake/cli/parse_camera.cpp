@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "cli/options.h"
+#include "cli/option_values.h"
 
 namespace pdsm {
 
