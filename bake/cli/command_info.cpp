@@ -34,10 +34,11 @@ Json view_json(const View& view, const VertexCoding& coding) {
            {{"rotation", view.world_to_view.rotation}, {"translation", view.world_to_view.translation}}}};
 }
 
-Json coding_json(const VertexCoding& coding) {
+Json coding_json(const PenumbraMap& map) {
+  const VertexCoding& coding = map.coding;
   return {{"depth_bits", coding.depth_bits},
           {"value_bits", coding.value_bits},
-          {"channels", coding.channels},
+          {"channels", map.channels},
           {"value_max", coding.value_max}};
 }
 
@@ -85,7 +86,7 @@ Json info_json(const PenumbraMap& map, const std::vector<std::byte>& bytes) {
   json["layers"] = map.layers;
   json["layer_rule"] = map.layer_rule == LayerRule::maximum ? "maximum" : "clamped_sum";
   json["images"] = map.images.size();
-  json["coding"] = coding_json(map.coding);
+  json["coding"] = coding_json(map);
   json["samples"] = map.samples.size();
   json["functions"] = functions_json(map_statistics(map));
   json["levels"] = levels_json(map, bytes);
@@ -112,13 +113,13 @@ std::string functions_text(const PenumbraMap& map) {
   const MapStatistics s = map_statistics(map);
   const double texels = static_cast<double>(std::max<std::uint64_t>(1, s.texels));
   return fmt::format(
-      "coding     depth {} bits, attenuation {} bits (0..{}), {} channel\n"
+      "coding     depth {} bits, attenuation {} bits (0..{}), {}\n"
       "samples    {}\n"
       "texels     {}, {} empty ({:.1f}%)\n"
       "functions  {} pieces, longest {}\n",
-      map.coding.depth_bits, map.coding.value_bits, map.coding.value_max, map.coding.channels,
-      map.samples.size(), s.texels, s.empty_texels, 100 * static_cast<double>(s.empty_texels) / texels,
-      s.pieces, s.longest);
+      map.coding.depth_bits, map.coding.value_bits, map.coding.value_max,
+      map.channels == 1 ? "1 channel" : "3 channels", map.samples.size(), s.texels, s.empty_texels,
+      100 * static_cast<double>(s.empty_texels) / texels, s.pieces, s.longest);
 }
 
 std::string bytes_text(const Json& bytes) {

@@ -39,7 +39,11 @@ int run_query(const QueryOptions& options) {
   answer_point_lines([&](std::span<const glm::dvec3> points, std::string& lines) {
     for (const glm::dvec3& p : points) {
       const LookUpResult found = look_up.at({p.x, p.y, p.z}, options.filter);
-      fmt::format_to(std::back_inserter(lines), "{:.9g}", found.attenuation);
+      const auto& [red, green, blue] = found.rgb;
+      if (map.channels == 1)
+        fmt::format_to(std::back_inserter(lines), "{:.9g}", found.attenuation);
+      else
+        fmt::format_to(std::back_inserter(lines), "{:.9g} {:.9g} {:.9g}", red, green, blue);
       if (options.status) lines.append(" ").append(status_name(found.status));
       lines += '\n';
     }
@@ -51,9 +55,11 @@ int run_query(const QueryOptions& options) {
 
 void add_query_command(CommandLine& line) {
   auto options = std::make_shared<QueryOptions>();
-  Options takes = line.add_command(
-      "query", "Attenuation at points: world points \"x y z\" on stdin, one number a line on stdout",
-      [options] { return run_query(*options); });
+  Options takes = line.add_command("query",
+                                   "Attenuation at points: world points \"x y z\" on stdin, one number a "
+                                   "line on stdout; three, red, green and blue, of a map of "
+                                   "three channels",
+                                   [options] { return run_query(*options); });
   takes.file("FILE", options->map, "Map");
   takes.choice("--filter", options->filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
                "Default: bilinear");

@@ -11,6 +11,9 @@
 namespace pdsm {
 namespace {
 
+/// Bakes make maps of one channel.
+constexpr std::uint32_t kChannels = 1;
+
 /// Bits of FactsRecord::flags.
 enum FactFlag : std::uint32_t {
   kWindowFitted = 1,
@@ -58,7 +61,7 @@ bool is_sound(const FactsRecord& record) {
   // Infinite where no slope is limited.
   if (std::isnan(record.slope_limit_from) || record.slope_limit_from < 0) return false;
   return record.projection <= static_cast<std::uint32_t>(Projection::orthographic) &&
-         record.walk <= static_cast<std::uint32_t>(Walk::exact) &&
+         record.walk <= static_cast<std::uint32_t>(Walk::exact) && record.channels == kChannels &&
          record.receivers <= static_cast<std::uint32_t>(Receivers::surfaces) && record.flags <= kAllFlags;
 }
 
@@ -73,7 +76,7 @@ BakeFacts facts_of(const FactsRecord& record) {
   view.width = record.width;
   view.height = record.height;
   facts.fitted.receivers_outside = record.receivers_outside;
-  facts.coding = {record.depth_bits, record.value_bits, record.channels, record.value_max};
+  facts.coding = {record.depth_bits, record.value_bits, record.value_max};
   facts.mip_levels = record.mip_levels;
   facts.mip_levels_asked = record.mip_levels_asked;
   facts.map_width = record.map_width;
@@ -140,7 +143,7 @@ std::vector<std::byte> encode_facts(const DescribedFacts& described) {
   record.mip_levels_asked = facts.mip_levels_asked;
   record.depth_bits = facts.coding.depth_bits;
   record.value_bits = facts.coding.value_bits;
-  record.channels = facts.coding.channels;
+  record.channels = kChannels;
   record.value_max = facts.coding.value_max;
   record.map_width = facts.map_width;
   record.map_height = facts.map_height;

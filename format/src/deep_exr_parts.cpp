@@ -2,6 +2,7 @@
 #include "deep_exr_parts.h"
 
 #include <algorithm>
+#include <array>
 
 namespace pdsm {
 
@@ -10,13 +11,14 @@ PenumbraMap make_shell(const PenumbraMap& map) {
   shell.views = map.views;
   shell.layers = map.layers;
   shell.layer_rule = map.layer_rule;
+  shell.channels = map.channels;
   shell.coding = map.coding;
   shell.samples = map.samples;
   shell.metadata = map.metadata;
   shell.block_keys = map.block_keys;
   for (const FunctionImage& image : map.images) {
     FunctionImage& empty = shell.images.emplace_back();
-    empty = {image.layer, image.view, image.level, image.width, image.height, {}};
+    empty = {image.layer, image.view, image.channel, image.level, image.width, image.height, {}};
     for (const FunctionBlock& block : image.blocks) {
       FunctionBlock& empty_block = empty.blocks.emplace_back();
       empty_block.first.assign(block.first.size(), 0);
@@ -32,8 +34,9 @@ bool has_domain_end(const FunctionImage& image) {
 }
 
 std::string part_name(const PenumbraMap& map, const FunctionImage& image) {
-  return map.layers[image.layer] + ".view" + std::to_string(image.view) + ".level" +
-         std::to_string(image.level);
+  constexpr std::array kChannels{".red", ".green", ".blue"};
+  return map.layers[image.layer] + ".view" + std::to_string(image.view) +
+         (map.channels == 1 ? "" : kChannels[image.channel]) + ".level" + std::to_string(image.level);
 }
 
 std::string to_hex(std::span<const std::byte> bytes) {

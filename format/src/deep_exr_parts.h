@@ -25,7 +25,7 @@ inline constexpr const char* kDomainEndChannel = "pdsm.domainEnd";
 
 [[nodiscard]] bool has_domain_end(const FunctionImage& image);
 
-/// Name of an image's part: layer, view, level.
+/// Name of an image's part: layer, view, channel where there are several, level.
 [[nodiscard]] std::string part_name(const PenumbraMap& map, const FunctionImage& image);
 
 [[nodiscard]] std::string to_hex(std::span<const std::byte> bytes);

@@ -34,6 +34,7 @@ enum ChunkEncoding : std::uint32_t {
   kEncodingRaw = 0,     ///< the payload as it is
   kEncodingZstd = 1,    ///< zstd of the payload (SMPL, META)
   kEncodingPlanes = 2,  ///< zstd of predicted byte planes (BLCK)
+  kEncodingAsRed = 3,   ///< nothing: the same block of channel 0 (BLCK of other channels)
 };
 
 struct TableEntry {
@@ -73,8 +74,7 @@ struct ViewRecord {
 static_assert(sizeof(ViewRecord) == 160);
 
 struct ImageRecord {
-  std::uint32_t layer, view, level;
-  std::uint32_t reserved;
+  std::uint32_t layer, view, level, channel;
 };
 static_assert(sizeof(ImageRecord) == 16);
 

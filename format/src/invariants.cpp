@@ -88,7 +88,6 @@ Verdict check_coding(const VertexCoding& coding) {
   if (coding.depth_bits != 16 && coding.depth_bits != 32) return violation("16 or 32 depth bits");
   if (coding.value_bits != 8 && coding.value_bits != 16 && coding.value_bits != 32)
     return violation("8, 16 or 32 value bits");
-  if (coding.channels != 1) return violation("1 channel");
   const std::uint64_t limit = (std::uint64_t{1} << coding.value_bits) - 1;
   if (coding.value_max < 1 || coding.value_max > limit)
     return violation("value_max of 1 to 2^value_bits - 1");
@@ -125,6 +124,11 @@ Verdict check_view(const View& view, const VertexCoding& coding) {
   return {};
 }
 
+Verdict check_channels(std::uint32_t channels) {
+  if (channels == 1 || channels == 3) return {};
+  return Violation{kFaultCoding, "1 or 3 channels"};
+}
+
 Verdict check_layers(const PenumbraMap& map) {
   const auto violation = [](const char* expected) { return Violation{kFaultLayer, expected}; };
   if (map.layer_rule != LayerRule::maximum && map.layer_rule != LayerRule::clamped_sum)
@@ -146,22 +150,23 @@ Verdict check_images(const PenumbraMap& map) {
   std::uint64_t base_images = 0;
   for (std::size_t n = 0; n < map.images.size(); ++n) {
     const FunctionImage& image = map.images[n];
-    if (image.layer >= map.layers.size() || image.view >= map.views.size() || image.level > 31)
-      return violation("layer, view and level that exist");
-    const auto key = [](const FunctionImage& i) { return std::tuple(i.layer, i.view, i.level); };
+    if (image.layer >= map.layers.size() || image.view >= map.views.size() || image.channel >= map.channels ||
+        image.level > 31)
+      return violation("layer, view, channel and level that exist");
+    const auto key = [](const FunctionImage& i) { return std::tuple(i.layer, i.view, i.channel, i.level); };
     if (n > 0 && !(key(map.images[n - 1]) < key(image)))
-      return violation("images in order of layer, view, level, each once");
+      return violation("images in order of layer, view, channel, level, each once");
     const View& view = map.views[image.view];
     if (image.width != std::max(1U, view.width >> image.level) ||
         image.height != std::max(1U, view.height >> image.level))
       return violation("images of the view's size, halved for each level");
-    const auto below = std::tuple(image.layer, image.view, image.level - 1);
+    const auto below = std::tuple(image.layer, image.view, image.channel, image.level - 1);
     if (image.level > 0 && (n == 0 || key(map.images[n - 1]) != below))
       return violation("levels without a gap");
     base_images += image.level == 0 ? 1 : 0;
   }
-  if (base_images != std::uint64_t{map.layers.size()} * map.views.size())
-    return violation("a level 0 for each layer and view");
+  if (base_images != std::uint64_t{map.layers.size()} * map.views.size() * map.channels)
+    return violation("a level 0 for each layer, view and channel");
   return {};
 }
 
@@ -217,6 +222,7 @@ Verdict check_block_keys(const PenumbraMap& map) {
 
 std::string find_invariant_fault(const PenumbraMap& map) {
   if (auto verdict = check_coding(map.coding)) return "coding: expected " + verdict->expected;
+  if (auto verdict = check_channels(map.channels)) return "channels: expected " + verdict->expected;
   if (map.views.empty()) return "views: expected one or more";
   for (std::size_t n = 0; n < map.views.size(); ++n) {
     if (auto verdict = check_view(map.views[n], map.coding))

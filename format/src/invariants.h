@@ -26,6 +26,7 @@ inline constexpr std::size_t kMaxLayerName = 255;
 [[nodiscard]] Verdict check_coding(const VertexCoding& coding);
 [[nodiscard]] Verdict check_view(const View& view, const VertexCoding& coding);
 /// Names and rule of the layers.
+[[nodiscard]] Verdict check_channels(std::uint32_t channels);
 [[nodiscard]] Verdict check_layers(const PenumbraMap& map);
 /// Order, completeness and sizes of the images, not their blocks.
 [[nodiscard]] Verdict check_images(const PenumbraMap& map);

@@ -8,6 +8,7 @@
 #include "block_codec.h"
 #include "bytes.h"
 #include "invariants.h"
+#include "red_image.h"
 #include "zstd_stream.h"
 
 namespace pdsm {
@@ -37,7 +38,7 @@ class MapParser {
   bool take_budget(std::size_t index);
   std::optional<std::vector<std::byte>> plain_payload(std::size_t index);
   bool parse_map_chunk(std::size_t index);
-  bool parse_images(ByteReader& reader, std::uint32_t count, std::uint64_t at);
+  void parse_images(ByteReader& reader, std::uint32_t count);
   bool parse_layers(ByteReader& reader, std::uint32_t count, std::uint64_t at);
   void parse_samples(std::size_t index);
   void parse_metadata(std::size_t index);
@@ -45,6 +46,7 @@ class MapParser {
   bool count_blocks();
   void parse_blocks(const BlockSink& sink);
   void parse_block(std::size_t index, std::size_t image, std::uint32_t block, const BlockSink& sink);
+  std::optional<std::size_t> find_content(std::size_t index, std::size_t image, std::uint32_t block);
 
   bool fault(int number, std::uint64_t offset, std::string expected) {
     faults_.add(number, offset, std::move(expected));
@@ -55,7 +57,8 @@ class MapParser {
   std::uint64_t budget_;  ///< bytes that may still be decoded
   FaultList& faults_;
   FileTable table_;
-  std::vector<std::size_t> blocks_;  ///< entries of BLCK chunks
+  std::vector<std::size_t> blocks_;       ///< entries of BLCK chunks
+  std::vector<std::size_t> first_block_;  ///< of each image, among them
   PenumbraMap map_;
 };
 
@@ -85,7 +88,7 @@ bool MapParser::check_entry_form(std::size_t index) {
     return fault(kFaultChunkKey, at + offsetof(TableEntry, image), "key 0 of what is not a block");
   const bool may_be_zstd = entry.type == kSamplesChunk || entry.type == kMetadataChunk;
   if (entry.encoding != kEncodingRaw && !(may_be_zstd && entry.encoding == kEncodingZstd) &&
-      !(is_block && entry.encoding == kEncodingPlanes))
+      !(is_block && (entry.encoding == kEncodingPlanes || entry.encoding == kEncodingAsRed)))
     return fault(kFaultEncoding, at + offsetof(TableEntry, encoding), "an encoding that suits the type");
   if (entry.encoding == kEncodingRaw && entry.decoded_size != entry.stored_size)
     return fault(kFaultDecodedSize, at + offsetof(TableEntry, decoded_size), "the stored size");
@@ -116,19 +119,18 @@ std::optional<std::vector<std::byte>> MapParser::plain_payload(std::size_t index
   return payload;
 }
 
-bool MapParser::parse_images(ByteReader& reader, std::uint32_t count, std::uint64_t at) {
+void MapParser::parse_images(ByteReader& reader, std::uint32_t count) {
   for (std::uint32_t n = 0; n < count; ++n) {
     const auto record = reader.value<ImageRecord>();
-    if (record.reserved != 0) return fault(kFaultMapReserved, at, "0 in a reserved word of an image");
     FunctionImage& image = map_.images.emplace_back();
     image.layer = record.layer;
     image.view = record.view;
+    image.channel = record.channel;
     image.level = record.level;
     if (record.view >= map_.views.size() || record.level > 31) continue;  // check_images tells
     image.width = std::max(1U, map_.views[record.view].width >> record.level);
     image.height = std::max(1U, map_.views[record.view].height >> record.level);
   }
-  return true;
 }
 
 bool MapParser::parse_layers(ByteReader& reader, std::uint32_t count, std::uint64_t at) {
@@ -158,8 +160,9 @@ bool MapParser::parse_map_chunk(std::size_t index) {
   const auto check = [&](const Verdict& verdict) {
     return !verdict || fault(verdict->number, at, verdict->expected);
   };
-  map_.coding = {header.depth_bits, header.value_bits, header.channels, header.value_max};
-  if (!check(check_coding(map_.coding))) return false;
+  map_.coding = {header.depth_bits, header.value_bits, header.value_max};
+  map_.channels = header.channels;
+  if (!check(check_coding(map_.coding)) || !check(check_channels(map_.channels))) return false;
   if (header.view_count == 0) return fault(kFaultView, at, "one view or more");
   for (std::uint32_t n = 0; n < header.view_count; ++n) {
     const auto record = reader.value<ViewRecord>();
@@ -174,8 +177,9 @@ bool MapParser::parse_map_chunk(std::size_t index) {
     if (!check(check_view(map_.views.back(), map_.coding))) return false;
   }
   map_.layer_rule = static_cast<LayerRule>(header.layer_rule);
-  return parse_images(reader, header.image_count, at) && parse_layers(reader, header.layer_count, at) &&
-         check(check_layers(map_)) && check(check_images(map_));
+  parse_images(reader, header.image_count);
+  return parse_layers(reader, header.layer_count, at) && check(check_layers(map_)) &&
+         check(check_images(map_));
 }
 
 void MapParser::parse_samples(std::size_t index) {
@@ -226,13 +230,35 @@ bool MapParser::parse_block_keys(std::size_t index) {
 bool MapParser::count_blocks() {
   std::uint64_t expected = 0;
   bool fits = true;
-  for (const FunctionImage& image : map_.images)
+  for (const FunctionImage& image : map_.images) {
+    first_block_.push_back(expected);
     fits = fits && checked_add_product(image.blocks_across(), image.blocks_up(), expected);
+  }
   if (!fits || expected != blocks_.size())
     return fault(kFaultBlockCount, offsetof(FileHeader, chunk_count),
                  (fits ? std::to_string(expected) : std::string("fewer")) + " BLCK chunks, not " +
                      std::to_string(blocks_.size()));
   return true;
+}
+
+/// The entry that has a block's bytes: its own, or that of channel 0.
+std::optional<std::size_t> MapParser::find_content(std::size_t index, std::size_t image,
+                                                   std::uint32_t block) {
+  const TableEntry& entry = table_.entries[index];
+  if (entry.encoding != kEncodingAsRed) return index;
+  const auto red = red_image(map_, image);
+  if (!red || entry.stored_size != 0) {
+    fault(kFaultEncoding, entry_offset(index) + offsetof(TableEntry, encoding),
+          "an empty chunk of another channel than 0, which has the block");
+    return std::nullopt;
+  }
+  const std::size_t content = blocks_[first_block_[*red] + block];
+  // What is wrong there has been told.
+  if (!table_.good[content] || table_.entries[content].encoding == kEncodingAsRed) return std::nullopt;
+  if (entry.decoded_size == table_.entries[content].decoded_size) return content;
+  fault(kFaultDecodedSize, entry_offset(index) + offsetof(TableEntry, decoded_size),
+        "the decoded size of channel 0's block");
+  return std::nullopt;
 }
 
 void MapParser::parse_block(std::size_t index, std::size_t image_index, std::uint32_t block,
@@ -244,12 +270,14 @@ void MapParser::parse_block(std::size_t index, std::size_t image_index, std::uin
     return;
   }
   if (!table_.good[index] || !check_entry_form(index) || !take_budget(index)) return;
+  const auto content = find_content(index, image_index, block);
+  if (!content) return;
   const FunctionImage& image = map_.images[image_index];
   const std::uint32_t across = image.blocks_across();
   const auto [width, height] = block_extent(image.width, image.height, block % across, block / across);
   FunctionBlock decoded;
-  if (const auto verdict = decode_block(map_.coding, width, height, entry.encoding, stored(index),
-                                        entry.decoded_size, decoded)) {
+  if (const auto verdict = decode_block(map_.coding, width, height, table_.entries[*content].encoding,
+                                        stored(*content), entry.decoded_size, decoded)) {
     fault(verdict->number, entry.offset, verdict->expected);
     return;
   }

@@ -10,6 +10,7 @@
 #include "file_layout.h"
 #include "pdsm/format/atomic_file.h"
 #include "pdsm/format/map_file.h"
+#include "red_image.h"
 #include "zstd_stream.h"
 
 namespace pdsm {
@@ -30,14 +31,14 @@ std::vector<std::byte> map_payload(const PenumbraMap& map) {
   const auto count = [](const auto& items) { return static_cast<std::uint32_t>(items.size()); };
   append_value(bytes, MapHeader{count(map.views), count(map.layers), count(map.images),
                                 static_cast<std::uint32_t>(map.layer_rule), map.coding.depth_bits,
-                                map.coding.value_bits, map.coding.channels, map.coding.value_max});
+                                map.coding.value_bits, map.channels, map.coding.value_max});
   for (const View& view : map.views) {
     append_value(bytes, ViewRecord{view.world_to_view.rotation, view.world_to_view.translation, view.window,
                                    view.near_depth, view.far_depth,
                                    static_cast<std::uint32_t>(view.projection), view.width, view.height, 0});
   }
   for (const FunctionImage& image : map.images)
-    append_value(bytes, ImageRecord{image.layer, image.view, image.level, 0});
+    append_value(bytes, ImageRecord{image.layer, image.view, image.level, image.channel});
   for (const std::string& layer : map.layers) {
     append_value(bytes, count(layer));
     append_array<char>(bytes, layer);
@@ -92,6 +93,19 @@ Chunk block_chunk(std::size_t image, std::size_t block, const EncodedBlock& enco
   return chunk;
 }
 
+/// A block that is the same as that of channel 0 takes no bytes.
+Chunk block_chunk(const PenumbraMap& map, BlocksOfImages blocks, std::size_t image, std::size_t block) {
+  const EncodedBlock& encoded = blocks[image][block];
+  Chunk chunk = block_chunk(image, block, encoded);
+  const auto red = red_image(map, image);
+  if (!red) return chunk;
+  const EncodedBlock& same = blocks[*red][block];
+  if (same.encoding != encoded.encoding || same.bytes != encoded.bytes) return chunk;
+  chunk.entry.encoding = kEncodingAsRed;
+  chunk.bytes = {};
+  return chunk;
+}
+
 /// All chunks in file order. What is not a block is compressed when the blocks are.
 std::vector<Chunk> make_chunks(const PenumbraMap& map, BlocksOfImages blocks) {
   const bool any_compressed = std::any_of(blocks.begin(), blocks.end(), [](const auto& image) {
@@ -109,7 +123,7 @@ std::vector<Chunk> make_chunks(const PenumbraMap& map, BlocksOfImages blocks) {
     chunks.push_back(make_chunk(kBlockKeysChunk, 0, block_keys_payload(map), Compression::none));
   for (std::size_t image = 0; image < blocks.size(); ++image) {
     for (std::size_t block = 0; block < blocks[image].size(); ++block)
-      chunks.push_back(block_chunk(image, block, blocks[image][block]));
+      chunks.push_back(block_chunk(map, blocks, image, block));
   }
   return chunks;
 }

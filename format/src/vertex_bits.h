@@ -28,14 +28,14 @@ inline void store_bits(std::uint32_t* words, std::uint32_t position, std::uint32
 
 [[nodiscard]] inline FunctionVertex load_vertex(const VertexCoding& coding, const std::uint32_t* words) {
   const std::uint32_t begin_at = coding.depth_bits;
-  const std::uint32_t end_at = begin_at + coding.channels * coding.value_bits;
+  const std::uint32_t end_at = begin_at + coding.value_bits;
   return {load_bits(words, 0, coding.depth_bits), load_bits(words, begin_at, coding.value_bits),
           load_bits(words, end_at, coding.value_bits)};
 }
 
 inline void store_vertex(const VertexCoding& coding, const FunctionVertex& vertex, std::uint32_t* words) {
   const std::uint32_t begin_at = coding.depth_bits;
-  const std::uint32_t end_at = begin_at + coding.channels * coding.value_bits;
+  const std::uint32_t end_at = begin_at + coding.value_bits;
   for (std::uint32_t word = 0; word < coding.words_per_vertex(); ++word) words[word] = 0;
   store_bits(words, 0, coding.depth_bits, vertex.depth);
   store_bits(words, begin_at, coding.value_bits, vertex.begin);

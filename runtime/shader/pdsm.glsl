@@ -2,6 +2,7 @@
 // Penumbra deep shadow maps in a shader: which fraction of an area light does a point see?
 //
 //   float pdsm_visibility(int map, vec3 position, vec3 normal)
+//   vec3 pdsm_visibility_rgb(int map, vec3 position, vec3 normal)      where casters colour the light
 //
 // Include it after the #version line (330, 450 or 300 es; any stage). The C++ library pdsm::runtime packs the
 // inputs (make_map_textures), pdsm::runtime_gl uploads and binds them (ShadowTextures).
@@ -39,6 +40,7 @@ precision highp int;
 // Flags of PdsmMap and PdsmView.
 #define PDSM_BILINEAR 1u
 #define PDSM_LAYERS_ADD 2u
+#define PDSM_COLOUR 4u
 #define PDSM_ORTHOGRAPHIC 1u
 #define PDSM_DEPTH_32 2u
 
@@ -89,7 +91,7 @@ struct PdsmView {
   vec4 rows[3];  // world (x, y, z, 1) to texels from the window's corner, x and y, both times reach; to depth
   vec4 depth;    // near, depth codes per metre, largest code
   vec4 scale;    // value_max; texels per unit of the window
-  uvec4 image;   // width, height, layers, levels
+  uvec4 image;   // width, height, planes (see pdsm_look_up), levels
   uvec4 place;   // two-level: corner in pdsm_index, first word in pdsm_vertices, bits of a count
                  // fixed depth: corner in pdsm_vertices, slabs in a row
   uint flags;
@@ -138,11 +140,18 @@ uint pdsm_form(uint view) {
   return pdsm_views[view].form;
 #endif
 }
-uint pdsm_layer_count(uint view) {
-#ifdef PDSM_ONE_LAYER
+uint pdsm_plane_count(uint view) {
+#ifdef PDSM_ONE_PLANE
   return 1u;
 #else
   return pdsm_views[view].image[2];
+#endif
+}
+uint pdsm_channel_count(uint map) {
+#ifdef PDSM_GREY
+  return 1u;
+#else
+  return (pdsm_maps[map].flags & PDSM_COLOUR) != 0u ? 3u : 1u;
 #endif
 }
 uint pdsm_level_count(uint view) {
@@ -250,6 +259,11 @@ uint pdsm_holding(PDSM_REAL position, uint size) {
 
 PDSM_REAL pdsm_mix(PDSM_REAL from, PDSM_REAL to, PDSM_REAL share) {
   return from + (to - from) * share;
+}
+
+// How bright red, green and blue are together (Rec. 709), exactly the same if they are.
+PDSM_REAL pdsm_grey(PDSM_REAL red, PDSM_REAL green, PDSM_REAL blue) {
+  return green + PDSM_REAL(0.2126) * (red - green) + PDSM_REAL(0.0722) * (blue - green);
 }
 
 // Mip level for a footprint in texels, 0 .. levels - 1. Bilinear look-ups in texels of width w weigh an area with a
@@ -407,14 +421,14 @@ PDSM_REAL pdsm_texel(uint view, uint corner_x, uint corner_y, uint x, uint y, Pd
 
 #endif  // PDSM_FIXED_DEPTH
 
-// ---- Levels, layers, views ------------------------------------------------------------------------------------
+// ---- Levels, planes, views ------------------------------------------------------------------------------------
 
-// One layer and level of a view, filtered.
-PDSM_REAL pdsm_filter(uint view, uint layer, uint level, bool bilinear, PdsmPlace place) {
+// One plane and level of a view, filtered.
+PDSM_REAL pdsm_filter(uint view, uint plane, uint level, bool bilinear, PdsmPlace place) {
   uint width = max(pdsm_views[view].image[0] >> level, 1u);
   uint height = max(pdsm_views[view].image[1] >> level, 1u);
   uint corner_x = pdsm_views[view].place[0] + pdsm_level_x(view, level);
-  uint corner_y = pdsm_views[view].place[1] + layer * pdsm_views[view].image[1] + pdsm_level_y(view, level);
+  uint corner_y = pdsm_views[view].place[1] + plane * pdsm_views[view].image[1] + pdsm_level_y(view, level);
   PDSM_REAL shrink = PDSM_REAL(1.0) / PDSM_REAL(1u << level);
   PDSM_REAL u = place.u * shrink;
   PDSM_REAL v = place.v * shrink;
@@ -430,8 +444,9 @@ PDSM_REAL pdsm_filter(uint view, uint layer, uint level, bool bilinear, PdsmPlac
   return pdsm_mix(pdsm_mix(v00, v10, x.share), pdsm_mix(v01, v11, x.share), y.share);
 }
 
-// Attenuation at a place within a view: levels blended, layers combined.
-PDSM_REAL pdsm_look_up(uint view, uint map, PdsmPlace place, PDSM_REAL footprint) {
+// Attenuation of one channel at a place within a view: levels blended, layers combined. Planes are the channels of
+// layer 0, then those of layer 1, ...
+PDSM_REAL pdsm_look_up(uint view, uint map, uint channel, PdsmPlace place, PDSM_REAL footprint) {
   if (place.lit) return PDSM_REAL(0.0);
   bool bilinear = pdsm_is_bilinear(map);
   bool add = (pdsm_maps[map].flags & PDSM_LAYERS_ADD) != 0u;
@@ -439,26 +454,36 @@ PDSM_REAL pdsm_look_up(uint view, uint map, PdsmPlace place, PDSM_REAL footprint
   uint fine = uint(level);
   PDSM_REAL share = level - PDSM_REAL(fine);
   PDSM_REAL total = PDSM_REAL(0.0);
-  for (uint layer = 0u; layer < pdsm_layer_count(view); ++layer) {
-    PDSM_REAL value = pdsm_filter(view, layer, fine, bilinear, place);
+  for (uint plane = channel; plane < pdsm_plane_count(view); plane += pdsm_channel_count(map)) {
+    PDSM_REAL value = pdsm_filter(view, plane, fine, bilinear, place);
     if (share > PDSM_REAL(0.0)) {
-      value = pdsm_mix(value, pdsm_filter(view, layer, fine + 1u, bilinear, place), share);
+      value = pdsm_mix(value, pdsm_filter(view, plane, fine + 1u, bilinear, place), share);
     }
     total = add ? min(total + value, pdsm_views[view].scale[0]) : max(total, value);
   }
   return total / pdsm_views[view].scale[0];  // a division, so that umbra is 1 to the last bit
 }
 
-// Fraction of the light of map `map` that is blocked at a point: the first view whose window holds it tells.
-PDSM_REAL pdsm_attenuation_at(uint map, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z, PDSM_REAL normal_x,
-                              PDSM_REAL normal_y, PDSM_REAL normal_z, PDSM_REAL footprint) {
+// Fraction of a channel of the light of map `map` that is blocked at a point: the first view whose window holds it
+// tells.
+PDSM_REAL pdsm_channel_at(uint map, uint channel, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z,
+                          PDSM_REAL normal_x, PDSM_REAL normal_y, PDSM_REAL normal_z, PDSM_REAL footprint) {
   uint first = pdsm_maps[map].first_view;
   uint last = first + pdsm_view_count(map);
   for (uint view = first; view < last; ++view) {
     PdsmPlace place = pdsm_place_receiver(view, x, y, z, normal_x, normal_y, normal_z, pdsm_maps[map].normal_offset);
-    if (place.inside) return pdsm_look_up(view, map, place, footprint);
+    if (place.inside) return pdsm_look_up(view, map, channel, place, footprint);
   }
   return PDSM_REAL(0.0);
+}
+
+// Fraction of the light that is blocked at a point; of three channels how bright they are together.
+PDSM_REAL pdsm_attenuation_at(uint map, PDSM_REAL x, PDSM_REAL y, PDSM_REAL z, PDSM_REAL normal_x,
+                              PDSM_REAL normal_y, PDSM_REAL normal_z, PDSM_REAL footprint) {
+  PDSM_REAL red = pdsm_channel_at(map, 0u, x, y, z, normal_x, normal_y, normal_z, footprint);
+  if (pdsm_channel_count(map) == 1u) return red;
+  PDSM_REAL green = pdsm_channel_at(map, 1u, x, y, z, normal_x, normal_y, normal_z, footprint);
+  return pdsm_grey(red, green, pdsm_channel_at(map, 2u, x, y, z, normal_x, normal_y, normal_z, footprint));
 }
 
 #endif  // PDSM_FUNCTIONS_ONLY
@@ -485,6 +510,29 @@ float pdsm_visibility(int map, vec3 position, vec3 normal, float footprint) {
 }
 float pdsm_visibility(int map, vec3 position, vec3 normal) {
   return pdsm_visibility(map, position, normal, 0.0);
+}
+
+// The same for red, green and blue, which differ behind what colours the light.
+vec3 pdsm_attenuation_rgb(int map, vec3 position, float footprint) {
+  uint m = uint(map);
+  float red = pdsm_channel_at(m, 0u, position.x, position.y, position.z, 0.0, 0.0, 0.0, footprint);
+  if (pdsm_channel_count(m) == 1u) return vec3(red, red, red);
+  return vec3(red, pdsm_channel_at(m, 1u, position.x, position.y, position.z, 0.0, 0.0, 0.0, footprint),
+              pdsm_channel_at(m, 2u, position.x, position.y, position.z, 0.0, 0.0, 0.0, footprint));
+}
+vec3 pdsm_attenuation_rgb(int map, vec3 position) {
+  return pdsm_attenuation_rgb(map, position, 0.0);
+}
+vec3 pdsm_visibility_rgb(int map, vec3 position, vec3 normal, float footprint) {
+  uint m = uint(map);
+  float red = 1.0 - pdsm_channel_at(m, 0u, position.x, position.y, position.z, normal.x, normal.y, normal.z, footprint);
+  if (pdsm_channel_count(m) == 1u) return vec3(red, red, red);
+  return vec3(
+      red, 1.0 - pdsm_channel_at(m, 1u, position.x, position.y, position.z, normal.x, normal.y, normal.z, footprint),
+      1.0 - pdsm_channel_at(m, 2u, position.x, position.y, position.z, normal.x, normal.y, normal.z, footprint));
+}
+vec3 pdsm_visibility_rgb(int map, vec3 position, vec3 normal) {
+  return pdsm_visibility_rgb(map, position, normal, 0.0);
 }
 
 #endif  // __cplusplus

@@ -14,5 +14,8 @@ namespace pdsm {
 /// branches that it can't foresee.
 void look_up_many(const PreparedMap& map, std::span<const std::array<double, 3>> world_points, Filter filter,
                   std::span<float> attenuation);
+/// The same of each channel.
+void look_up_many(const PreparedMap& map, std::span<const std::array<double, 3>> world_points, Filter filter,
+                  std::span<std::array<float, 3>> attenuation);
 
 }  // namespace pdsm

@@ -42,13 +42,13 @@ std::vector<std::uint32_t> padded_words(const VertexCoding& coding, const Functi
   return words;
 }
 
-void write_image(const VertexCoding& coding, const FunctionImage& image, const ShaderView& view,
+void write_image(const PenumbraMap& map, const FunctionImage& image, const ShaderView& view,
                  std::array<std::uint32_t, 2> slab_size, Texture& texture) {
-  const auto corner = image_corner(view, image.layer, image.level);
+  const auto corner = image_corner(view, plane_of(map, image), image.level);
   const std::uint32_t across = view.place[2];
   for_each_function(image, [&](std::uint32_t x, std::uint32_t y, std::uint32_t first, std::uint32_t count,
                                const FunctionBlock& block) {
-    const std::vector<std::uint32_t> words = padded_words(coding, block, first, count, view.slabs);
+    const std::vector<std::uint32_t> words = padded_words(map.coding, block, first, count, view.slabs);
     for (std::uint32_t s = 0; s < view.slabs; ++s) {
       const std::size_t column = view.place[0] + s % across * slab_size[0] + corner[0] + x,
                         row = view.place[1] + s / across * slab_size[1] + corner[1] + y;
@@ -92,7 +92,7 @@ void pack_fixed_depth(std::span<const PenumbraMap* const> maps, const TextureLim
     const std::uint32_t first_view = textures.tables.maps[map_of[v]].first_view;
     for (const FunctionImage& image : map.images)
       if (first_view + image.view == v && is_packed(view, image))
-        write_image(map.coding, image, view, image_size(view), textures.vertices);
+        write_image(map, image, view, image_size(view), textures.vertices);
   }
 }
 

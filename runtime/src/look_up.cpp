@@ -37,7 +37,7 @@ double evaluate_texel(const LevelImage& image, std::uint32_t x, std::uint32_t y,
   return functions.pdsm_evaluate(0, {first[0], first[1] - first[0], 0}, {z.whole, z.fraction});
 }
 
-/// One layer and level, filtered.
+/// One plane and level, filtered.
 template <typename Vertices>
 double evaluate_image(const Place& place, const LevelImage& image, std::uint32_t level, Filter filter) {
   const TexelQuad quad = texels_of(place, image, level, filter);
@@ -53,7 +53,7 @@ double evaluate_image(const Place& place, const LevelImage& image, std::uint32_t
 
 /// The levels between which a footprint lies, blended.
 template <typename Vertices>
-double evaluate_layer(const Place& place, const std::vector<LevelImage>& levels, double level,
+double evaluate_plane(const Place& place, const std::vector<LevelImage>& levels, double level,
                       Filter filter) {
   const auto fine = static_cast<std::uint32_t>(level);
   const double share = level - fine;
@@ -63,27 +63,29 @@ double evaluate_layer(const Place& place, const std::vector<LevelImage>& levels,
   return value + (coarse - value) * share;
 }
 
-/// Filtered attenuation of all layers at a place within a view, as a real-valued code.
+/// Filtered attenuation of all layers at a place within a view, of one channel, as a real-valued code.
 template <typename Vertices>
-double evaluate_place(const Place& place, LayerRule rule, double value_max, Filter filter, double footprint) {
+double evaluate_channel(const Place& place, const PreparedMap& map, std::uint32_t channel, Filter filter,
+                        double footprint) {
   if (place.is_lit) return 0;
   double level = 0;
   if (footprint > 0)
     level = shader::PlainFunctions().pdsm_level(footprint * place.texels_per_metre, place.view->level_count);
   double total = 0;
-  for (const auto& levels : place.view->layers) {
-    const double value = evaluate_layer<Vertices>(place, levels, level, filter);
-    total = rule == LayerRule::maximum ? std::max(total, value) : std::min(total + value, value_max);
+  for (std::size_t plane = channel; plane < place.view->planes.size(); plane += map.channels) {
+    const double value = evaluate_plane<Vertices>(place, place.view->planes[plane], level, filter);
+    total = map.rule == LayerRule::maximum ? std::max(total, value)
+                                           : std::min<double>(total + value, map.coding.value_max);
   }
   return total;
 }
 
-/// Whether the point lies past the domain of its texel's function in some layer.
+/// Whether the point lies past the domain of its texel's function in some plane.
 bool is_past_end(const Place& place) {
   if (place.is_lit) return false;
   const auto last_code = static_cast<std::uint32_t>(place.view->range.depth_max);
-  const auto& layers = place.view->layers;
-  return std::any_of(layers.begin(), layers.end(), [&](const std::vector<LevelImage>& levels) {
+  const auto& planes = place.view->planes;
+  return std::any_of(planes.begin(), planes.end(), [&](const std::vector<LevelImage>& levels) {
     const TexelQuad quad = texels_of(place, levels[0], 0, Filter::nearest);
     const TexelAddress texel = levels[0].address(quad.x.low, quad.y.low);
     const std::uint32_t* ends = texel.block->domain_end;
@@ -98,7 +100,7 @@ struct PenumbraLookUp::Prepared : PreparedMap {
 
   [[nodiscard]] Place place(const std::array<double, 3>& world_point) const;
   template <typename Vertices>
-  [[nodiscard]] float attenuation(const Place& place, Filter filter, double footprint) const;
+  void evaluate(const Place& place, Filter filter, double footprint, LookUpResult& result) const;
   [[nodiscard]] LookUpResult result(const Place& place, Filter filter, double footprint) const;
 };
 
@@ -115,18 +117,21 @@ Place PenumbraLookUp::Prepared::place(const std::array<double, 3>& world_point) 
 }
 
 template <typename Vertices>
-float PenumbraLookUp::Prepared::attenuation(const Place& place, Filter filter, double footprint) const {
-  if (place.view == nullptr) return 0;
-  const double code = evaluate_place<Vertices>(place, rule, coding.value_max, filter, footprint);
-  return static_cast<float>(code * value_scale);
+void PenumbraLookUp::Prepared::evaluate(const Place& place, Filter filter, double footprint,
+                                        LookUpResult& result) const {
+  if (place.view == nullptr) return;
+  std::array<double, 3> codes{};
+  for (std::uint32_t channel = 0; channel < channels; ++channel)
+    codes[channel] = evaluate_channel<Vertices>(place, *this, channel, filter, footprint);
+  result.attenuation = grey_of(*this, codes);
+  result.rgb = rgb_of(*this, codes);
 }
 
 LookUpResult PenumbraLookUp::Prepared::result(const Place& place, Filter filter, double footprint) const {
   LookUpResult result;
   result.status = place.status;
-  with_vertices(coding, [&]<typename Vertices>(Vertices) {
-    result.attenuation = attenuation<Vertices>(place, filter, footprint);
-  });
+  with_vertices(coding,
+                [&]<typename Vertices>(Vertices) { evaluate<Vertices>(place, filter, footprint, result); });
   if (place.status == PointStatus::inside && is_past_end(place)) result.status = PointStatus::past_end;
   return result;
 }
@@ -148,6 +153,12 @@ void PenumbraLookUp::attenuations(std::span<const std::array<double, 3>> world_p
                                   std::span<float> attenuation) const {
   assert(world_points.size() == attenuation.size());
   look_up_many(*prepared_, world_points, filter, attenuation);
+}
+
+void PenumbraLookUp::attenuations(std::span<const std::array<double, 3>> world_points, Filter filter,
+                                  std::span<std::array<float, 3>> rgb) const {
+  assert(world_points.size() == rgb.size());
+  look_up_many(*prepared_, world_points, filter, rgb);
 }
 
 }  // namespace pdsm

@@ -6,13 +6,13 @@
 namespace pdsm {
 
 std::array<std::uint32_t, 2> image_size(const ShaderView& view) {
-  const auto [width, height, layers, levels] = view.image;
-  return {width + (levels > 1 ? width / 2 : 0), height * layers};
+  const auto [width, height, planes, levels] = view.image;
+  return {width + (levels > 1 ? width / 2 : 0), height * planes};
 }
 
-std::array<std::uint32_t, 2> image_corner(const ShaderView& view, std::uint32_t layer, std::uint32_t level) {
-  const auto [width, height, layers, levels] = view.image;
-  const std::uint32_t y = layer * height;
+std::array<std::uint32_t, 2> image_corner(const ShaderView& view, std::uint32_t plane, std::uint32_t level) {
+  const auto [width, height, planes, levels] = view.image;
+  const std::uint32_t y = plane * height;
   if (level == 0) return {0, y};
   return {width, y + height - (height >> (level - 1))};
 }

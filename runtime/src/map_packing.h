@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "atlas.h"
-#include "level_count.h"
 #include "pdsm/format/error.h"
 #include "pdsm/runtime/map_textures.h"
+#include "planes.h"
 
 /// Flags of ShaderMap and ShaderView, as pdsm.glsl names them.
-inline constexpr std::uint32_t kBilinear = 1, kLayersAdd = 2;
+inline constexpr std::uint32_t kBilinear = 1, kLayersAdd = 2, kColour = 4;
 inline constexpr std::uint32_t kOrthographic = 1, kDepth32 = 2;
 
 /// The two layouts: they fill the textures and, in the views' tables, where functions lie. Throw Error
@@ -25,12 +25,12 @@ void pack_two_level(std::span<const PenumbraMap* const> maps, const TextureLimit
 void pack_fixed_depth(std::span<const PenumbraMap* const> maps, const TextureLimits& limits,
                       MapTextures& textures);
 
-/// Room that all layers and levels of a view take, texels: layers one upon the other; beside level 0, level 1
+/// Room that all planes and levels of a view take, texels: planes one upon the other; beside level 0, level 1
 /// and below it the others.
 [[nodiscard]] std::array<std::uint32_t, 2> image_size(const ShaderView& view);
 
-/// Corner of one layer and level within that room, as pdsm_filter finds it.
-[[nodiscard]] std::array<std::uint32_t, 2> image_corner(const ShaderView& view, std::uint32_t layer,
+/// Corner of one plane and level within that room, as pdsm_filter finds it.
+[[nodiscard]] std::array<std::uint32_t, 2> image_corner(const ShaderView& view, std::uint32_t plane,
                                                         std::uint32_t level);
 
 /// Whether the tables of `view` hold this image.

@@ -55,8 +55,7 @@ ShaderView describe_view(const PenumbraMap& map, std::uint32_t index, const std:
   table.depth = {static_cast<float>(view.near_depth),
                  static_cast<float>(map.coding.depth_max() / (view.far_depth - view.near_depth)),
                  float_below(map.coding.depth_max()), 0};
-  table.image = {view.width, view.height, static_cast<std::uint32_t>(map.layers.size()),
-                 level_count(map, index)};
+  table.image = {view.width, view.height, plane_count(map), level_count(map, index)};
   table.flags = (view.projection == Projection::orthographic ? kOrthographic : 0) |
                 (map.coding.depth_bits == 32 ? kDepth32 : 0);
   table.form = vertex_form(map.coding);
@@ -75,7 +74,8 @@ void fill_tables(std::span<const PenumbraMap* const> maps, const std::array<doub
     ShaderMap& entry = tables.maps[n];
     entry.first_view = views;
     entry.view_count = static_cast<std::uint32_t>(map.views.size());
-    entry.flags = map.layer_rule == LayerRule::clamped_sum ? kLayersAdd : 0;
+    entry.flags =
+        (map.layer_rule == LayerRule::clamped_sum ? kLayersAdd : 0) | (map.channels == 3 ? kColour : 0);
     for (std::uint32_t v = 0; v < map.views.size(); ++v)
       tables.views[views++] = describe_view(map, v, origin);
     set_look_up(tables, static_cast<std::uint32_t>(n), LookUpSettings{});

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "level_count.h"
+#include "planes.h"
 
 namespace pdsm {
 namespace {
@@ -60,10 +60,10 @@ PreparedView prepare_view(const PenumbraMap& map, std::uint32_t index) {
   prepared.scale_x = view.width / (view.window[2] - view.window[0]);
   prepared.scale_y = view.height / (view.window[3] - view.window[1]);
   prepared.level_count = level_count(map, index);
-  prepared.layers.resize(map.layers.size());
+  prepared.planes.resize(plane_count(map));
   for (const FunctionImage& image : map.images)
     if (image.view == index && image.level < prepared.level_count)
-      prepared.layers[image.layer].push_back(prepare_image(image));
+      prepared.planes[plane_of(map, image)].push_back(prepare_image(image));
   return prepared;
 }
 

@@ -26,7 +26,7 @@ struct TexelAddress {
   std::uint32_t index;
 };
 
-/// One layer and mip level of a view.
+/// One layer, channel and mip level of a view.
 struct LevelImage {
   std::uint32_t width = 0, height = 0, blocks_across = 0;
   std::vector<BlockPointers> blocks;
@@ -41,14 +41,15 @@ struct PreparedView {
   View view;
   DepthRange range;
   double scale_x = 0, scale_y = 0;  ///< texels per unit of the window
-  std::uint32_t level_count = 1;    ///< that all layers have
-  std::vector<std::vector<LevelImage>> layers;
+  std::uint32_t level_count = 1;    ///< that all planes have
+  /// By plane_of(layer, channel), then level.
+  std::vector<std::vector<LevelImage>> planes;
 };
 
 /// Borrows the map.
 [[nodiscard]] PreparedView prepare_view(const PenumbraMap& map, std::uint32_t index);
 
-/// Where a point meets a view: what all layers share.
+/// Where a point meets a view: what all planes share.
 struct Place {
   const PreparedView* view = nullptr;  ///< null: nowhere, `status` tells why
   PointStatus status = PointStatus::outside;

@@ -18,7 +18,9 @@ std::string shader_constants(const MapTextures& textures) {
   if (all(views, [&](const ShaderView& view) { return view.form == views[0].form; }))
     lines += "#define PDSM_ONLY_FORM " + std::to_string(views[0].form) + "u\n";
   if (all(views, [](const ShaderView& view) { return view.image[2] == 1; }))
-    lines += "#define PDSM_ONE_LAYER\n";
+    lines += "#define PDSM_ONE_PLANE\n";
+  if (all(maps, [](const ShaderMap& map) { return (map.flags & kColour) == 0; }))
+    lines += "#define PDSM_GREY\n";
   if (all(views, [](const ShaderView& view) { return view.image[3] == 1; }))
     lines += "#define PDSM_ONE_LEVEL\n";
   if (all(views, [](const ShaderView& view) { return (view.flags & kOrthographic) == 0; }))

@@ -56,7 +56,7 @@ class FunctionStore {
   std::unordered_map<std::size_t, Range> seen_;
 };
 
-/// One layer and level of a view.
+/// One plane and level of a view.
 struct IndexImage {
   std::uint32_t view = 0;  ///< in the tables
   std::array<std::uint32_t, 2> corner{};
@@ -80,7 +80,7 @@ PackedMap pack_map(const PenumbraMap& map, std::size_t number, const ShaderTable
     if (!is_packed(view, image)) continue;
     IndexImage& index = packed.images.emplace_back();
     index.view = first_view + image.view;
-    index.corner = image_corner(view, image.layer, image.level);
+    index.corner = image_corner(view, plane_of(map, image), image.level);
     index.width = image.width;
     index.entries.reserve(std::size_t{image.width} * image.height);
     for_each_function(image, [&](std::uint32_t, std::uint32_t, std::uint32_t first, std::uint32_t count,

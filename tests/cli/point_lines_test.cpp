@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pdsm/format/map_file.h"
 #include "scratch_scene.h"
 
 namespace pdsm {
@@ -123,6 +124,28 @@ TEST_F(PointLines, QueryTellsStatus) {
       say({"query", "map.pdsm", "--status"}, "0 0.1 0\n0 5 0\n0 3.99 0\n0 -3 0\n100 0 0\n");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out, "1 inside\n0 behind\n0 outside\n1 past-end\n0 outside\n");
+}
+
+TEST_F(PointLines, QueryTellsThreeChannels) {
+  // Red as baked, green lit everywhere, blue as red.
+  PenumbraMap map = read_map(path("map.pdsm"));
+  ASSERT_EQ(map.images.size(), 1U);
+  map.channels = 3;
+  map.block_keys.clear();
+  for (const std::uint32_t channel : {1U, 2U}) {
+    FunctionImage image = map.images[0];
+    image.channel = channel;
+    for (FunctionBlock& block : image.blocks) {
+      if (channel == 2) continue;
+      std::fill(block.first.begin(), block.first.end(), 0U);
+      block.words.clear();
+    }
+    map.images.push_back(std::move(image));
+  }
+  write_map(map, path("colour.pdsm"));
+  const Outcome outcome = say({"query", "colour.pdsm", "--status"}, "0 0.1 0\n100 0 0\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "1 0 1 inside\n0 0 0 outside\n");
 }
 
 TEST_F(PointLines, QueryFilters) {

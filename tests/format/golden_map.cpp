@@ -26,7 +26,7 @@ FunctionBlock golden_block(const VertexCoding& coding, std::uint32_t width, std:
 
 PenumbraMap golden_map() {
   PenumbraMap map;
-  map.coding = {16, 8, 1, 250};
+  map.coding = {16, 8, 250};
   map.layers = {"static", "doors"};
   map.layer_rule = LayerRule::clamped_sum;
   View view;
@@ -42,7 +42,7 @@ PenumbraMap golden_map() {
   for (std::uint32_t layer : {0U, 1U}) {
     for (std::uint32_t level : {0U, 1U}) {
       const std::uint32_t width = 5U >> level, height = 3U >> level;
-      FunctionImage image{layer, 0, level, width, height, {}};
+      FunctionImage image{layer, 0, 0, level, width, height, {}};
       image.blocks.push_back(golden_block(map.coding, width, height, 5 * level + layer));
       if (layer == 0 && level == 0)
         for (std::uint32_t texel = 0; texel < 15; ++texel)

@@ -27,7 +27,7 @@ TEST_P(Golden, ReadsToKnownValues) {
   EXPECT_EQ(view.height, 3U);
   EXPECT_EQ(map.layers, (std::vector<std::string>{"static", "doors"}));
   EXPECT_EQ(map.layer_rule, LayerRule::clamped_sum);
-  EXPECT_EQ(map.coding, (VertexCoding{16, 8, 1, 250}));
+  EXPECT_EQ(map.coding, (VertexCoding{16, 8, 250}));
   EXPECT_EQ(map.metadata, "{\"light\": \"golden\"}");
   ASSERT_EQ(map.samples.size(), 2U);
   EXPECT_EQ(map.samples[1], (LightSample{{0.75, -0.25, 0}, {-0.25F, 0.375F}, 0.5F}));

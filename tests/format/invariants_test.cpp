@@ -36,7 +36,7 @@ void expect_fault(const std::string& part, const std::function<void(PenumbraMap&
 TEST(Invariants, Coding) {
   expect_fault("coding", [](PenumbraMap& map) { map.coding.depth_bits = 24; });
   expect_fault("coding", [](PenumbraMap& map) { map.coding.value_bits = 64; });
-  expect_fault("coding", [](PenumbraMap& map) { map.coding.channels = 3; });
+  expect_fault("channels", [](PenumbraMap& map) { map.channels = 2; });
   expect_fault("coding", [](PenumbraMap& map) { map.coding.value_max = 0; });
   expect_fault("coding", [](PenumbraMap& map) { map.coding.value_max = 256; });
 }
@@ -127,6 +127,8 @@ TEST(Invariants, Images) {
   expect_fault("images:", [](PenumbraMap& map) { map.images.back().layer = 2; });
   expect_fault("images:", [](PenumbraMap& map) { map.images[1].width = 66; });
   expect_fault("images:", [](PenumbraMap& map) { map.images[1].height = 5; });
+  expect_fault("images:", [](PenumbraMap& map) { map.images[1].channel = 1; });
+  expect_fault("images:", [](PenumbraMap& map) { map.channels = 3; });
   // A gap among the levels, of the first view and of the last.
   expect_fault("images:", [](PenumbraMap& map) { map.images.erase(map.images.begin() + 1); });
   expect_fault("images:", [](PenumbraMap& map) { map.images.erase(map.images.end() - 2); });

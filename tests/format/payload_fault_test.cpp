@@ -42,7 +42,6 @@ TEST(PayloadFault, MapSizes) {
 
 TEST(PayloadFault, MapReservedWords) {
   expect_map_fault(32 + 156, 1, 41);
-  expect_map_fault(32 + 160 + 12, 1, 41);
 }
 
 TEST(PayloadFault, Codings) {
@@ -72,6 +71,7 @@ TEST(PayloadFault, Images) {
   expect_map_fault(32 + 164, 1, 45);
   expect_map_fault(32 + 168, 1, 45);
   expect_map_fault(32 + 168, 32, 45);
+  expect_map_fault(32 + 172, 1, 45);
 }
 
 TEST(PayloadFault, BlockCounts) {
@@ -185,7 +185,7 @@ TEST(PayloadFault, DomainEnds) {
 
 TEST(PayloadFault, VertexValuesAndUnusedBits) {
   testing::MapShape shape;
-  shape.coding = {32, 8, 1, 100};
+  shape.coding = {32, 8, 100};
   shape.empty_share = 0;
   const PenumbraMap map = testing::random_map(23, shape);
   const Bytes file = serialize_map(map, {Compression::none});

@@ -17,20 +17,20 @@ TEST(VertexCoding, WordsPerVertex) {
   const std::array<std::array<std::uint32_t, 3>, 6> expected{
       {{16, 8, 1}, {16, 16, 2}, {16, 32, 3}, {32, 8, 2}, {32, 16, 2}, {32, 32, 3}}};
   for (const auto& [depth_bits, value_bits, words] : expected)
-    EXPECT_EQ((VertexCoding{depth_bits, value_bits, 1, 1}.words_per_vertex()), words);
+    EXPECT_EQ((VertexCoding{depth_bits, value_bits, 1}.words_per_vertex()), words);
 }
 
 TEST(VertexCoding, PackedBitsAreAsSpecified) {
   std::array<std::uint32_t, 3> words{~0U, ~0U, ~0U};
-  pack_vertex({16, 8, 1, 255}, {0x1234, 0x56, 0x78}, words.data());
+  pack_vertex({16, 8, 255}, {0x1234, 0x56, 0x78}, words.data());
   EXPECT_EQ(words[0], 0x78561234U);
-  pack_vertex({16, 16, 1, 0xFFFF}, {0x1234, 0x5678, 0x9ABC}, words.data());
+  pack_vertex({16, 16, 0xFFFF}, {0x1234, 0x5678, 0x9ABC}, words.data());
   EXPECT_EQ(words, (std::array<std::uint32_t, 3>{0x56781234, 0x00009ABC, ~0U}));
-  pack_vertex({16, 32, 1, ~0U}, {0x1234, 0x56789ABC, 0xDEF01234}, words.data());
+  pack_vertex({16, 32, ~0U}, {0x1234, 0x56789ABC, 0xDEF01234}, words.data());
   EXPECT_EQ(words, (std::array<std::uint32_t, 3>{0x9ABC1234, 0x12345678, 0x0000DEF0}));
-  pack_vertex({32, 8, 1, 255}, {0x12345678, 0x9A, 0xBC}, words.data());
+  pack_vertex({32, 8, 255}, {0x12345678, 0x9A, 0xBC}, words.data());
   EXPECT_EQ(words, (std::array<std::uint32_t, 3>{0x12345678, 0x0000BC9A, 0x0000DEF0}));
-  pack_vertex({32, 32, 1, ~0U}, {0x12345678, 1, 2}, words.data());
+  pack_vertex({32, 32, ~0U}, {0x12345678, 1, 2}, words.data());
   EXPECT_EQ(words, (std::array<std::uint32_t, 3>{0x12345678, 1, 2}));
 }
 
@@ -54,7 +54,7 @@ TEST(DecodeDepth, BothEndsAreExactAndOrderHolds) {
     view.near_depth = random.real(1e-3, 10) * std::exp2(random.real(-20, 20));
     view.far_depth = view.near_depth * (1 + random.real(1e-4, 1e4));
     for (std::uint32_t depth_bits : {16U, 32U}) {
-      const VertexCoding coding{depth_bits, 8, 1, 255};
+      const VertexCoding coding{depth_bits, 8, 255};
       RC_ASSERT(decode_depth(view, coding, 0) == view.near_depth);
       RC_ASSERT(decode_depth(view, coding, coding.depth_max()) == view.far_depth);
       const auto code = static_cast<std::uint32_t>(random.below(coding.depth_max()));
@@ -70,7 +70,7 @@ TEST(DecodeDepth, BothEndsAreExactAndOrderHolds) {
 TEST(DecodeDepth, EndsAreExactWhereTheFormulaRounds) {
   const std::array<std::pair<std::uint32_t, double>, 2> cases{{{16, 0x1.a45018cd88p+0}, {32, 0x1.316c08p+0}}};
   for (const auto& [depth_bits, depth] : cases) {
-    const VertexCoding coding{depth_bits, 8, 1, 255};
+    const VertexCoding coding{depth_bits, 8, 255};
     View view;
     view.near_depth = depth;
     view.far_depth = 16 * depth;
@@ -98,7 +98,7 @@ View unit_view() {
 
 TEST(EvaluateFunction, IsLeftContinuousWithExactJumps) {
   const View view = unit_view();
-  const VertexCoding coding{16, 8, 1, 100};
+  const VertexCoding coding{16, 8, 100};
   // 0 up to 11, jumps to 0.2, rises to 0.4 at 21, jumps to 1, falls to 0.5 at 31 and stays.
   const std::vector<FunctionVertex> function{{10, 20, 40}, {20, 100, 50}, {30, 50, 50}};
   const auto at = [&](double z) { return evaluate_function(view, coding, function, z); };

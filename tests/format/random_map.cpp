@@ -48,6 +48,24 @@ FunctionImage random_image(Random& random, const MapShape& shape, std::uint32_t 
   return image;
 }
 
+/// All channels and levels of a layer and view. Some blocks of green and blue are those of red.
+void add_images(Random& random, const MapShape& shape, std::uint32_t layer, std::uint32_t view,
+                std::vector<FunctionImage>& images) {
+  const std::size_t red = images.size();
+  for (std::uint32_t channel = 0; channel < shape.channels; ++channel) {
+    for (std::uint32_t level = 0; level < shape.levels; ++level) {
+      FunctionImage image = random_image(random, shape, level);
+      image.layer = layer;
+      image.view = view;
+      image.channel = channel;
+      for (std::size_t b = 0; b < image.blocks.size(); ++b) {
+        if (channel > 0 && random.chance(0.5)) image.blocks[b] = images[red + level].blocks[b];
+      }
+      images.push_back(std::move(image));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<FunctionVertex> random_function(Random& random, const VertexCoding& coding,
@@ -118,14 +136,10 @@ PenumbraMap random_map(std::uint64_t seed, const MapShape& shape) {
                            {static_cast<float>(random.real(-0.5, 0.49)), -0.5F},
                            static_cast<float>(random.real(0, 2))});
   }
+  map.channels = shape.channels;
   for (std::uint32_t layer = 0; layer < shape.layers; ++layer) {
-    for (std::uint32_t view = 0; view < shape.views; ++view) {
-      for (std::uint32_t level = 0; level < shape.levels; ++level) {
-        map.images.push_back(random_image(random, shape, level));
-        map.images.back().layer = layer;
-        map.images.back().view = view;
-      }
-    }
+    for (std::uint32_t view = 0; view < shape.views; ++view)
+      add_images(random, shape, layer, view, map.images);
   }
   const FunctionImage& base = map.images.front();
   for (std::uint32_t n = shape.block_keys ? base.blocks_across() * base.blocks_up() : 0; n > 0; --n)
@@ -133,6 +147,14 @@ PenumbraMap random_map(std::uint64_t seed, const MapShape& shape) {
         {{random.below(~std::uint64_t{0}), n}, random.below(~std::uint64_t{0}), n, n % 2});
   map.metadata = "{\"seed\": " + std::to_string(seed) + ", \"name\": \"caf\u00e9\"}";
   return map;
+}
+
+PenumbraMap channel_of(const PenumbraMap& map, std::uint32_t channel) {
+  PenumbraMap one = map;
+  one.channels = 1;
+  std::erase_if(one.images, [channel](const FunctionImage& image) { return image.channel != channel; });
+  for (FunctionImage& image : one.images) image.channel = 0;
+  return one;
 }
 
 MapShape random_shape(std::uint64_t seed) {
@@ -144,6 +166,7 @@ MapShape random_shape(std::uint64_t seed) {
   shape.height = static_cast<std::uint32_t>(1 + random.below(random.chance(0.2) ? 80 : 9));
   shape.views = static_cast<std::uint32_t>(1 + random.below(3));
   shape.layers = static_cast<std::uint32_t>(1 + random.below(3));
+  shape.channels = random.chance(0.3) ? 3 : 1;
   shape.levels = static_cast<std::uint32_t>(1 + random.below(4));
   shape.samples = static_cast<std::uint32_t>(random.below(4));
   shape.most_vertices = static_cast<std::uint32_t>(1 + random.below(20));
@@ -159,11 +182,11 @@ std::vector<VertexCoding> all_codings() {
   for (std::uint32_t depth_bits : {16U, 32U}) {
     for (std::uint32_t value_bits : {8U, 16U, 32U}) {
       const auto all_ones = static_cast<std::uint32_t>((std::uint64_t{1} << value_bits) - 1);
-      codings.push_back({depth_bits, value_bits, 1, all_ones});
-      codings.push_back({depth_bits, value_bits, 1, value_bits == 8 ? 64U : 256U});
+      codings.push_back({depth_bits, value_bits, all_ones});
+      codings.push_back({depth_bits, value_bits, value_bits == 8 ? 64U : 256U});
     }
   }
-  codings.push_back({16, 8, 1, 1});
+  codings.push_back({16, 8, 1});
   return codings;
 }
 

@@ -32,7 +32,7 @@ class Random {
 struct MapShape {
   VertexCoding coding;
   std::uint32_t width = 7, height = 13;
-  std::uint32_t views = 1, layers = 1, levels = 1;
+  std::uint32_t views = 1, layers = 1, channels = 1, levels = 1;
   std::uint32_t samples = 5;
   std::uint32_t most_vertices = 12;  ///< of a function
   double empty_share = 0.4;          ///< of texels without vertices
@@ -54,7 +54,10 @@ struct MapShape {
 
 [[nodiscard]] PenumbraMap random_map(std::uint64_t seed, const MapShape& shape = {});
 
-/// A shape drawn at random: all codings, sizes up to 80 texels, several views, layers and levels.
+/// The map of one channel that a map of three holds.
+[[nodiscard]] PenumbraMap channel_of(const PenumbraMap& map, std::uint32_t channel);
+
+/// A shape drawn at random: all codings, sizes up to 80 texels, several views, layers, channels and levels.
 [[nodiscard]] MapShape random_shape(std::uint64_t seed);
 
 /// Every coding that a file may have.

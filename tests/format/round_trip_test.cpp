@@ -67,7 +67,7 @@ TEST(RoundTrip, AllFunctionsEmpty) {
 TEST(RoundTrip, FunctionsOfTenThousandVertices) {
   for (std::uint32_t depth_bits : {16U, 32U}) {
     MapShape shape;
-    shape.coding = {depth_bits, 16, 1, 65535};
+    shape.coding = {depth_bits, 16, 65535};
     shape.width = shape.height = 2;
     PenumbraMap map = random_map(2, shape);
     testing::Random random(3);
@@ -95,6 +95,34 @@ TEST(RoundTrip, SeveralViewsLayersAndLevels) {
   shape.levels = 7;
   shape.projection = Projection::orthographic;
   expect_round_trip(random_map(4, shape));
+}
+
+TEST(RoundTrip, ThreeChannels) {
+  MapShape shape;
+  shape.width = 130;
+  shape.height = 70;
+  shape.views = shape.layers = shape.levels = 2;
+  shape.channels = 3;
+  expect_round_trip(random_map(5, shape));
+}
+
+TEST(RoundTrip, ChannelsThatAreEqualAreStoredOnce) {
+  MapShape shape;
+  shape.width = shape.height = 100;
+  shape.levels = 2;
+  const PenumbraMap grey = random_map(6, shape);
+  PenumbraMap map = grey;
+  map.channels = 3;
+  for (std::uint32_t channel : {1U, 2U}) {
+    for (FunctionImage image : grey.images) {
+      image.channel = channel;
+      map.images.push_back(std::move(image));
+    }
+  }
+  expect_round_trip(map);
+  // Only entries are added: of two channels, two levels, four blocks and one, and what describes four images.
+  const std::size_t added = serialize_map(map).size() - serialize_map(grey).size();
+  EXPECT_LE(added, 2 * 5 * 56 + 4 * 16 + 2 * 16U);
 }
 
 TEST(RoundTrip, DomainEndsOfSomeBlocksOnly) {
@@ -146,7 +174,7 @@ TEST(RoundTrip, FileHoldsWhatSerializeGives) {
 TEST(RoundTrip, FileOfSeveralMegabytes) {
   const testing::ScratchFolder folder;
   MapShape shape;
-  shape.coding = {32, 32, 1, 255};
+  shape.coding = {32, 32, 255};
   shape.width = shape.height = 200;
   shape.empty_share = 0;
   const PenumbraMap map = random_map(11, shape);

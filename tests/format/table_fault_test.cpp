@@ -179,6 +179,36 @@ TEST(Fault, Encodings) {
                entry_at(block) + testing::kEncodingIn);
 }
 
+/// A file of three equal channels of one block, and its entry of the green one.
+Bytes file_of_equal_channels() {
+  PenumbraMap map = testing::random_map(7);
+  map.channels = 3;
+  for (std::uint32_t channel : {1U, 2U}) {
+    map.images.push_back(map.images[0]);
+    map.images.back().channel = channel;
+  }
+  return serialize_map(map);
+}
+
+TEST(Fault, BlocksThatAreTheSameAsRed) {
+  const Bytes file = file_of_equal_channels();
+  ASSERT_TRUE(check_map(file).empty());
+  const std::size_t red = find_chunk(file, "BLCK"), green = red + 1;
+  ASSERT_EQ(get<std::uint32_t>(file, entry_at(green) + testing::kEncodingIn), 3U);
+  ASSERT_EQ(get<std::uint64_t>(file, entry_at(green) + testing::kStoredIn), 0U);
+
+  // Red can't be as red; then what green is can't be told, and isn't.
+  Bytes no_red = file;
+  put<std::uint32_t>(no_red, entry_at(red) + testing::kEncodingIn, 3);
+  testing::repair_checksums(no_red);
+  expect_fault(no_red, 28, entry_at(red) + testing::kEncodingIn);
+  expect_fault(testing::replace_chunk(file, green, Bytes(1)), 28, entry_at(green) + testing::kEncodingIn);
+  Bytes other_size = file;
+  put<std::uint64_t>(other_size, entry_at(green) + testing::kDecodedIn, 1);
+  testing::repair_checksums(other_size);
+  expect_fault(other_size, 29, entry_at(green) + testing::kDecodedIn);
+}
+
 TEST(Fault, DecodedSizes) {
   expect_fault(with_entry<std::uint64_t>(2, testing::kDecodedIn, 1), 29, entry_at(2) + testing::kDecodedIn);
 }

@@ -126,8 +126,8 @@ void save_glb(const fs::path& path) {
 
 void make(const fs::path& folder) {
   save_map(folder, "golden", golden_map());
-  save_map(folder, "levels", small_map({16, 8, 1, 255}, Projection::perspective, 2));
-  save_map(folder, "wide", small_map({32, 32, 1, 0xFFFFFFFF}, Projection::orthographic, 1));
+  save_map(folder, "levels", small_map({16, 8, 255}, Projection::perspective, 2));
+  save_map(folder, "wide", small_map({32, 32, 0xFFFFFFFF}, Projection::orthographic, 1));
   save_ply(folder / "ply" / "little.ply", false);
   save_ply(folder / "ply" / "big.ply", true);
   save_glb(folder / "gltf" / "square.glb");

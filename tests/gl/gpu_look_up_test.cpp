@@ -75,6 +75,33 @@ TEST(GpuLookUp, AgreesWithTheCpuForEveryCodingInOneSet) {
   }
 }
 
+TEST(GpuLookUp, AgreesWithTheCpuOnChannels) {
+  const EglContext context(GlApi::core_33);
+  ShadowTextures shadows(EglContext::loader());
+  MapShape shape;
+  shape.width = 70;
+  shape.layers = 2;
+  shape.channels = 3;
+  const PenumbraMap map = random_map(6, shape);
+  const PenumbraMap* const maps[] = {&map};
+  shadows.upload(maps, TextureLayout::two_level);
+  Random random(1);
+  const std::vector<FloatPoint> points = testing::points_to_try(random, map, 3000);
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    const PenumbraMap one = testing::channel_of(map, channel);
+    const PenumbraLookUp look_up(one);
+    const std::string component(1, "xyz"[channel]);
+    const auto blocked = testing::gpu_look_up(shadows, GlApi::core_33, 0, points,
+                                              "pdsm_attenuation_rgb(map, position)." + component);
+    const auto arrives = testing::gpu_look_up(shadows, GlApi::core_33, 0, points,
+                                              "pdsm_visibility_rgb(map, position, vec3(0.0))." + component);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      ASSERT_TRUE(testing::may_say(blocked[n], one, look_up, points[n], Filter::bilinear)) << n;
+      ASSERT_FLOAT_EQ(arrives[n], 1 - blocked[n]) << n;
+    }
+  }
+}
+
 TEST(GpuLookUp, AgreesWithTheCpuOnMipLevels) {
   const EglContext context(GlApi::core_33);
   ShadowTextures shadows(EglContext::loader());

@@ -117,10 +117,14 @@ std::vector<Point> some_points(Random& random, const PenumbraMap& map, std::size
 void expect_same_bits(const PenumbraMap& map, const std::vector<Point>& points) {
   const PenumbraLookUp look_up(map);
   std::vector<float> values(points.size(), -1);
+  std::vector<std::array<float, 3>> colours(points.size());
   for (Filter filter : {Filter::nearest, Filter::bilinear}) {
     look_up.attenuations(points, filter, values);
+    look_up.attenuations(points, filter, colours);
     for (std::size_t n = 0; n < points.size(); ++n) {
-      const float expected = look_up.at(points[n], filter).attenuation;
+      const LookUpResult result = look_up.at(points[n], filter);
+      ASSERT_EQ(colours[n], result.rgb) << n;
+      const float expected = result.attenuation;
       ASSERT_EQ(std::bit_cast<std::uint32_t>(values[n]), std::bit_cast<std::uint32_t>(expected))
           << (filter == Filter::bilinear ? "bilinear" : "nearest") << ", point " << n << ": " << points[n][0]
           << " " << points[n][1] << " " << points[n][2] << "; " << values[n] << " for " << expected;
@@ -160,22 +164,24 @@ TEST(BatchLookUp, HasTheBitsOfSingleLookUpsForEveryCoding) {
   }
 }
 
-TEST(BatchLookUp, HasThemForViewsThatOverlapAndForLayers) {
+TEST(BatchLookUp, HasThemForViewsThatOverlapForLayersAndChannels) {
   constexpr std::size_t kPoints = 50'000;
   std::uint64_t seed = 300;
   for (LayerRule rule : {LayerRule::maximum, LayerRule::clamped_sum}) {
-    for (Projection projection : {Projection::perspective, Projection::orthographic}) {
-      MapShape shape = shape_of_blocks({}, projection);
-      shape.views = 3;
-      shape.layers = 3;
-      shape.levels = 2;
-      PenumbraMap map = random_map(++seed, shape);
-      map.layer_rule = rule;
-      map.views[0].projection = Projection::perspective;
-      turn_to_world_axes(map);
-      Random random(seed);
-      expect_same_bits(map, some_points(random, map, kPoints));
-    }
+    for (const std::uint32_t channels : {1U, 3U})
+      for (Projection projection : {Projection::perspective, Projection::orthographic}) {
+        MapShape shape = shape_of_blocks({}, projection);
+        shape.views = 3;
+        shape.layers = 3;
+        shape.channels = channels;
+        shape.levels = 2;
+        PenumbraMap map = random_map(++seed, shape);
+        map.layer_rule = rule;
+        map.views[0].projection = Projection::perspective;
+        turn_to_world_axes(map);
+        Random random(seed);
+        expect_same_bits(map, some_points(random, map, kPoints));
+      }
   }
 }
 

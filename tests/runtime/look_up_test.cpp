@@ -23,10 +23,11 @@ using Point = std::array<double, 3>;
 /// 2 ulp of a float near 1, and the same relative to smaller values.
 constexpr double kTwoUlp = 2.4e-7;
 
-/// The image of a layer and view, level 0.
-const FunctionImage& base_image(const PenumbraMap& map, std::uint32_t layer, std::uint32_t view) {
+/// The image of a layer, view and channel, level 0.
+const FunctionImage& base_image(const PenumbraMap& map, std::uint32_t layer, std::uint32_t view,
+                                std::uint32_t channel) {
   return *std::find_if(map.images.begin(), map.images.end(), [&](const FunctionImage& image) {
-    return image.layer == layer && image.view == view && image.level == 0;
+    return image.layer == layer && image.view == view && image.channel == channel && image.level == 0;
   });
 }
 
@@ -43,14 +44,15 @@ double texel_value(const PenumbraMap& map, const FunctionImage& image, std::int6
 }
 
 /// Look-up as documented, straight from the definitions, for a point within the window of `view`.
-double expected_value(const PenumbraMap& map, std::uint32_t view_index, const Point& p, Filter filter) {
+double expected_value(const PenumbraMap& map, std::uint32_t view_index, const Point& p, Filter filter,
+                      std::uint32_t channel = 0) {
   const View& view = map.views[view_index];
   const double w = view.projection == Projection::perspective ? p[2] : 1;
   const double u = (p[0] / w - view.window[0]) / (view.window[2] - view.window[0]) * view.width;
   const double v = (p[1] / w - view.window[1]) / (view.window[3] - view.window[1]) * view.height;
   double total = 0;
   for (std::uint32_t layer = 0; layer < map.layers.size(); ++layer) {
-    const FunctionImage& image = base_image(map, layer, view_index);
+    const FunctionImage& image = base_image(map, layer, view_index, channel);
     const auto value = [&](double x, double y) {
       return texel_value(map, image, static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), p[2]);
     };
@@ -113,13 +115,42 @@ TEST(LookUp, AgreesWithThePlainEvaluationForAnyMap) {
       for (int n = 0; n < 20; ++n) {
         const Point p = random_point(random, map.views[view]);
         for (Filter filter : {Filter::nearest, Filter::bilinear}) {
-          const double expected = expected_value(map, view, p, filter);
-          const double value = look_up.at_view_point(p, filter, view).attenuation;
-          RC_ASSERT(std::abs(value - expected) <= kTwoUlp * expected + 1e-12);
+          const LookUpResult result = look_up.at_view_point(p, filter, view);
+          const auto is_near = [](double value, double expected) {
+            return std::abs(value - expected) <= kTwoUlp * expected + 1e-12;
+          };
+          std::array<double, 3> expected{};
+          for (std::uint32_t c = 0; c < 3; ++c) {
+            expected[c] = expected_value(map, view, p, filter, map.channels == 3 ? c : 0);
+            RC_ASSERT(is_near(result.rgb[c], expected[c]));
+          }
+          RC_ASSERT(is_near(result.attenuation,
+                            0.2126 * expected[0] + 0.7152 * expected[1] + 0.0722 * expected[2]));
         }
       }
     }
   }));
+}
+
+TEST(LookUp, ChannelsAreMapsOfTheirOwn) {
+  MapShape shape;
+  shape.width = 70;
+  shape.views = shape.layers = 2;
+  shape.levels = 3;
+  shape.channels = 3;
+  const PenumbraMap map = random_map(4, shape);
+  const PenumbraLookUp look_up(map);
+  Random random(4);
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    const PenumbraMap one = testing::channel_of(map, channel);
+    const PenumbraLookUp alone(one);
+    for (int n = 0; n < 1000; ++n) {
+      const Point p = to_world(map.views[0], random_point(random, map.views[0]));
+      const double footprint = random.real(0, 1);
+      EXPECT_EQ(look_up.at(p, Filter::bilinear, footprint).rgb[channel],
+                alone.at(p, Filter::bilinear, footprint).attenuation);
+    }
+  }
 }
 
 /// Bilinear value of one layer's level, straight from the definitions.
@@ -170,7 +201,7 @@ PenumbraMap one_texel_map(const std::vector<FunctionVertex>& function, const Ver
   view.far_depth = 65536;
   view.width = view.height = 1;
   map.views = {view};
-  FunctionImage image{0, 0, 0, 1, 1, {testing::make_block(coding, {function})}};
+  FunctionImage image{0, 0, 0, 0, 1, 1, {testing::make_block(coding, {function})}};
   map.images = {image};
   return map;
 }
@@ -202,7 +233,7 @@ TEST(LookUp, IsLeftContinuousAtEveryVertex) {
 TEST(LookUp, IsWithinTwoUlpOfThePlainEvaluation) {
   EXPECT_TRUE(rc::check("nearest = evaluate_function to 2 ulp", [](std::uint64_t seed) {
     Random random(seed);
-    const VertexCoding coding{16, 16, 1, 65535};
+    const VertexCoding coding{16, 16, 65535};
     const auto function = testing::random_function(random, coding, 8);
     PenumbraMap map = one_texel_map(function, coding);
     map.views[0].near_depth = random.real(0.1, 10);

@@ -66,6 +66,49 @@ TEST(MapTextures, ShaderAgreesWithTheLookUpForSetsOfAnyMaps) {
   }
 }
 
+TEST(MapTextures, ChannelsAreMapsOfTheirOwn) {
+  MapShape shape;
+  shape.width = 70;
+  shape.views = shape.layers = 2;
+  shape.levels = 2;
+  shape.channels = 3;
+  const PenumbraMap map = random_map(12, shape);
+  const PenumbraMap* const maps[] = {&map};
+  const MapTextures two_level = make_map_textures(maps, TextureLayout::two_level),
+                    fixed_depth = make_map_textures(maps, TextureLayout::fixed_depth);
+  testing::TwoLevelMirror two_level_mirror(two_level);
+  testing::FixedDepthMirror fixed_depth_mirror(fixed_depth);
+  for (std::uint32_t channel = 0; channel < 3; ++channel) {
+    const PenumbraMap one = testing::channel_of(map, channel);
+    const PenumbraLookUp look_up(one);
+    Random random(channel + 1);
+    for (const FloatPoint& p : testing::points_to_try(random, map, 1000)) {
+      for (const float value :
+           {two_level_mirror.pdsm_channel_at(0, channel, p[0], p[1], p[2], 0, 0, 0, 0),
+            fixed_depth_mirror.pdsm_channel_at(0, channel, p[0], p[1], p[2], 0, 0, 0, 0)}) {
+        ASSERT_TRUE(testing::may_say(value, one, look_up, p, Filter::bilinear))
+            << p[0] << ' ' << p[1] << ' ' << p[2];
+      }
+    }
+  }
+}
+
+TEST(MapTextures, ChannelsThatAreEqualShareTheirVertices) {
+  MapShape shape;
+  const PenumbraMap grey = random_map(13, shape);
+  PenumbraMap map = grey;
+  map.channels = 3;
+  for (std::uint32_t channel : {1U, 2U}) {
+    map.images.push_back(grey.images[0]);
+    map.images.back().channel = channel;
+  }
+  const PenumbraMap *const one[] = {&grey}, *const three[] = {&map};
+  const MapTextures a = make_map_textures(one, TextureLayout::two_level),
+                    b = make_map_textures(three, TextureLayout::two_level);
+  EXPECT_EQ(b.vertices.words, a.vertices.words);
+  EXPECT_EQ(b.index.bytes(), 3 * a.index.bytes());
+}
+
 TEST(MapTextures, ShaderAgreesWithTheLookUpOnMipLevels) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE(seed);
@@ -193,7 +236,7 @@ TEST(MapTextures, TheReceiverIsMovedAlongItsNormal) {
 TEST(MapTextures, ConstantsSayWhatAllMapsHaveInCommon) {
   const PenumbraMap plain = one_texel_map({});
   MapShape shape;
-  shape.coding = {32, 16, 1, 65535};
+  shape.coding = {32, 16, 65535};
   shape.layers = 2;
   shape.views = 2;
   shape.levels = 2;
@@ -202,12 +245,14 @@ TEST(MapTextures, ConstantsSayWhatAllMapsHaveInCommon) {
   const auto constants = [](const std::vector<const PenumbraMap*>& maps) {
     return shader_constants(make_map_textures(maps, TextureLayout::two_level));
   };
-  EXPECT_EQ(
-      constants({&plain, &plain}),
-      "#define PDSM_ONLY_FORM 1u\n#define PDSM_ONE_LAYER\n#define PDSM_ONE_LEVEL\n#define PDSM_PERSPECTIVE\n"
-      "#define PDSM_ONE_VIEW\n");
-  EXPECT_EQ(constants({&other}), "#define PDSM_ONLY_FORM 2u\n");
-  EXPECT_EQ(constants({&plain, &other}), "");
+  EXPECT_EQ(constants({&plain, &plain}),
+            "#define PDSM_ONLY_FORM 1u\n#define PDSM_ONE_PLANE\n#define PDSM_GREY\n#define PDSM_ONE_LEVEL\n"
+            "#define PDSM_PERSPECTIVE\n#define PDSM_ONE_VIEW\n");
+  EXPECT_EQ(constants({&other}), "#define PDSM_ONLY_FORM 2u\n#define PDSM_GREY\n");
+  EXPECT_EQ(constants({&plain, &other}), "#define PDSM_GREY\n");
+  shape.channels = 3;
+  const PenumbraMap colour = random_map(1, shape);
+  EXPECT_EQ(constants({&plain, &colour}), "");
   EXPECT_EQ(constants({}), "");
 }
 

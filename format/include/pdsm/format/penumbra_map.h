@@ -58,18 +58,15 @@ struct LightSample {
 struct VertexCoding {
   std::uint32_t depth_bits = 16;  ///< 16 or 32
   std::uint32_t value_bits = 8;   ///< 8, 16 or 32
-  std::uint32_t channels = 1;     ///< 1 (attenuation); the layout leaves room for 2 to 4
   std::uint32_t value_max = 255;  ///< 1 .. 2^value_bits - 1
 
   [[nodiscard]] std::uint32_t depth_max() const { return depth_bits == 16 ? 0xFFFFu : 0xFFFFFFFFu; }
-  /// 32-bit words a packed vertex takes: depth_bits + 2 * channels * value_bits, rounded up.
-  [[nodiscard]] std::uint32_t words_per_vertex() const {
-    return (depth_bits + 2 * channels * value_bits + 31) / 32;
-  }
+  /// 32-bit words a packed vertex takes: depth_bits + 2 * value_bits, rounded up.
+  [[nodiscard]] std::uint32_t words_per_vertex() const { return (depth_bits + 2 * value_bits + 31) / 32; }
   friend bool operator==(const VertexCoding&, const VertexCoding&) = default;
 };
 
-/// One vertex of an attenuation function, unpacked, one channel.
+/// One vertex of an attenuation function, unpacked.
 /// Vertices d_0 < d_1 < ... of a function mean
 ///   V(z) = 0                                                       for z <= z_0
 ///   V(z) = begin_i + (end_i - begin_i) (z - z_i) / (z_i+1 - z_i)   for z_i < z <= z_i+1
@@ -99,7 +96,7 @@ struct FunctionBlock {
   friend bool operator==(const FunctionBlock&, const FunctionBlock&) = default;
 };
 
-/// All functions of one (layer, view, mip level): blocks row by row.
+/// All functions of one (layer, view, channel, mip level): blocks row by row.
 ///
 /// Level l is for look-ups whose footprint is 2^l texels wide. Its texel (i, j) holds the mean, at each
 /// depth, of the functions of the 2^l x 2^l texels (i 2^l, j 2^l) .. ((i + 1) 2^l - 1, (j + 1) 2^l - 1) of
@@ -109,7 +106,7 @@ struct FunctionBlock {
 /// of level 0 from the lower corner is u / 2^l texels of level l from there, and what lies behind the centre
 /// of the last texel is clamped to it, as at any border.
 struct FunctionImage {
-  std::uint32_t layer = 0, view = 0, level = 0;
+  std::uint32_t layer = 0, view = 0, channel = 0, level = 0;
   std::uint32_t width = 0, height = 0;  ///< texels; of level l: max(1, view size >> l)
   std::vector<FunctionBlock> blocks;    ///< blocks_across() * blocks_up()
 
@@ -136,12 +133,16 @@ struct BlockKey {
 /// the two attenuations; it lies between these two rules.
 enum class LayerRule : std::uint32_t { maximum = 0, clamped_sum = 1 };
 
-/// A penumbra deep shadow map. Images are ordered by layer, view, level; each layer and view has levels
-/// 0, 1, ... without a gap, each once.
+/// A penumbra deep shadow map. Images are ordered by layer, view, channel, level; each layer, view and
+/// channel has levels 0, 1, ... without a gap, each once.
+///
+/// A map of three channels tells how much of the light's red, green and blue is blocked, each by functions of
+/// its own: behind stained glass they differ, elsewhere they are equal and stored once.
 struct PenumbraMap {
   std::vector<View> views;  ///< 1 or more
   std::vector<std::string> layers{"static"};
   LayerRule layer_rule = LayerRule::maximum;
+  std::uint32_t channels = 1;  ///< 1 (all of the light), or 3 (red, green, blue)
   VertexCoding coding;
   std::vector<LightSample> samples;  ///< the samples it was baked from; may be empty (imported)
   std::vector<FunctionImage> images;
@@ -164,7 +165,7 @@ struct PenumbraMap {
 /// Depth of one code step, metres.
 [[nodiscard]] double depth_step(const View& view, const VertexCoding& coding);
 
-/// Writes `vertex` to `words` (words_per_vertex of them), channel 0; the codes must fit their bits.
+/// Writes `vertex` to `words` (words_per_vertex of them); the codes must fit their bits.
 void pack_vertex(const VertexCoding& coding, const FunctionVertex& vertex, std::uint32_t* words);
 
 /// Inverse of pack_vertex.

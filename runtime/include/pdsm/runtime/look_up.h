@@ -26,15 +26,18 @@ enum class PointStatus {
 };
 
 struct LookUpResult {
-  float attenuation = 0;  ///< 0 lit .. 1 umbra
+  /// 0 lit .. 1 umbra. Of a map of three channels how bright they are together, 0.2126 red + 0.7152 green +
+  /// 0.0722 blue (Rec. 709).
+  float attenuation = 0;
+  std::array<float, 3> rgb{};  ///< red, green, blue; of a map of one channel three times the same
   PointStatus status = PointStatus::outside;
 };
 
 /// A read-only view of a map, prepared for look-ups. Borrows the map: it must outlive this object and its
 /// copies, which are cheap. Making one reads every texel once and takes two bytes a texel. The map has to
 /// hold its invariants (find_invariant_fault), as all maps do that the reader returns. A point belongs to the
-/// first view whose window holds it; each layer is filtered by itself, then the layers combine by the map's
-/// rule.
+/// first view whose window holds it; each layer and channel is filtered by itself, then the layers combine by
+/// the map's rule.
 class PenumbraLookUp {
  public:
   explicit PenumbraLookUp(const PenumbraMap& map);
@@ -53,6 +56,9 @@ class PenumbraLookUp {
   /// points in any order, most so for 64 and more of them. Same length, else assert. Allocates nothing.
   void attenuations(std::span<const std::array<double, 3>> world_points, Filter filter,
                     std::span<float> attenuation) const;
+  /// The same for rgb[n] = at(world_points[n]).rgb.
+  void attenuations(std::span<const std::array<double, 3>> world_points, Filter filter,
+                    std::span<std::array<float, 3>> rgb) const;
 
  private:
   struct Prepared;

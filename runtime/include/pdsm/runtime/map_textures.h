@@ -45,7 +45,7 @@ struct LookUpSettings {
 /// One map in the uniform block (std140, as the shader declares it).
 struct ShaderMap {
   std::uint32_t first_view = 0, view_count = 0;
-  std::uint32_t flags = 0;  ///< bit 0: bilinear; bit 1: layers add up
+  std::uint32_t flags = 0;  ///< bit 0: bilinear; bit 1: layers add up; bit 2: three channels
   float normal_offset = 0;
 };
 
@@ -56,14 +56,14 @@ struct ShaderView {
   std::array<std::array<float, 4>, 3> rows{};
   std::array<float, 4> depth{};          ///< near, depth codes per metre, largest code, 0
   std::array<float, 4> scale{};          ///< value_max; texels per unit of the window, the finer axis; 0, 0
-  std::array<std::uint32_t, 4> image{};  ///< width, height (texels), layers, levels
+  std::array<std::uint32_t, 4> image{};  ///< width, height (texels), planes, levels
   /// two_level: corner x and y in the index texture, first word in the vertex texture, count bits.
   /// fixed_depth: corner x and y in the vertex texture, slabs in a row, 0.
   std::array<std::uint32_t, 4> place{};
   std::uint32_t flags = 0;     ///< bit 0: orthographic
   std::uint32_t form = 1;      ///< words a vertex, 1 to 3: see pdsm.glsl
   std::uint32_t row_bits = 0;  ///< log2 of the vertex texture's width
-  std::uint32_t slabs = 0;     ///< fixed_depth: slabs of four vertices a layer and level
+  std::uint32_t slabs = 0;     ///< fixed_depth: slabs of four vertices a plane and level
 };
 
 /// The uniform block PdsmTables.
