@@ -43,6 +43,8 @@ std::vector<glm::dvec3> light_outline(const Light& light, const Focus& focus) {
     in_plane = outline_of(*rect);
   else if (const auto* disk = std::get_if<DiskLight>(&light.shape))
     in_plane = circle(disk->radius);
+  else if (const auto* sphere = std::get_if<SphereLight>(&light.shape))
+    in_plane = circle(sphere->radius);
   else
     in_plane = circle(kMarkerRadius * focus.radius);
   std::vector<glm::dvec3> outline;

@@ -77,6 +77,10 @@ std::string bake_metadata(const Light& light, const BakeOptions& options, const 
   json["isa"] = report.isa;
   json["light"] = light_json(light);
   json["options"] = options_json(options, report);
+  // Each of several views has its own where none is asked for.
+  if (baked.map.views.size() > 1 && options.bias) json["options"]["bias"] = *options.bias;
+  if (baked.map.views.size() > 1 && options.depth_tolerance)
+    json["options"]["depth_tolerance"] = *options.depth_tolerance;
   json["view_fit"] = fit_json(baked.fitted);
   json["epsilon"] = report.epsilon;
   json["depth_tolerance"] = report.depth_tolerance;

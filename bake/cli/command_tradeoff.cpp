@@ -95,6 +95,8 @@ int run_tradeoff(TradeoffCommand command) {
   prepare_folder(folder, scene_inputs(command.scene));
   const Scene scene = read_scene(command.scene);
   const Light& light = choose_light(scene, command.light);
+  if (view_count(light) > 1)
+    throw Error(Failure::usage, "--light", "lights of several faces can't be swept: " + light.name);
   command.options.folder = folder;
   set_options(command.options, light);
 

@@ -38,7 +38,7 @@ bool is_for_surfaces(const PenumbraMap& map) {
 /// What the budget needs for baking again; nothing with --no-budget.
 std::optional<BakeOptions> options_for_budget(const VerifyCommand& command, const PenumbraMap& map,
                                               const Scene& scene, const Light& light) {
-  if (command.no_budget) return std::nullopt;
+  if (command.no_budget || map.views.size() > 1) return std::nullopt;
   const auto refuse = [&command](const std::string& field, const std::string& reason) {
     throw Error(Failure::input, command.map + ":" + field, reason + ": only --no-budget can measure it");
   };
@@ -51,8 +51,15 @@ std::optional<BakeOptions> options_for_budget(const VerifyCommand& command, cons
 /// Atty et al.'s error takes as many texels of the window as points.
 double measure_atty_error(const PenumbraMap& map, const Scene& scene, const Light& light,
                           const VerifyOptions& options) {
-  const auto texels = draw_texels(map.views.front(), options.points, options.seed);
-  return atty_error(measure_texels(map, scene, light, texels, options.samples, options.seed));
+  const auto views = static_cast<std::uint32_t>(map.views.size());
+  std::vector<TexelError> errors;
+  for (std::uint32_t view = 0; view < views; ++view) {
+    const auto texels =
+        draw_texels(map.views[view], std::max(1U, options.points / views), options.seed + view);
+    const auto of_view = measure_texels(map, scene, light, texels, options.samples, options.seed, view);
+    errors.insert(errors.end(), of_view.begin(), of_view.end());
+  }
+  return atty_error(errors);
 }
 
 void write_heat_map(const VerifyCommand& command, const PenumbraMap& map, const Scene& scene,
@@ -81,7 +88,9 @@ int run_verify(const VerifyCommand& command) {
   const PenumbraMap map = read_map(command.map);
   const Scene scene = read_scene(command.scene);
   const Light& light = light_of_map(scene, map, 0, command.map);
-  if (command.no_budget) warn_if_changed(scene, light, map, command.map);
+  if (!command.heat_map.empty() && map.views.size() > 1)
+    throw Error(Failure::usage, "--heat-map", "only maps of one view have a window to draw");
+  if (command.no_budget || map.views.size() > 1) warn_if_changed(scene, light, map, command.map);
   const std::optional<BakeOptions> bake_options = options_for_budget(command, map, scene, light);
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);

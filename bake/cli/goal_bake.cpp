@@ -13,6 +13,8 @@ namespace pdsm {
 
 ChosenBake bake_to_goals(const BakeCommand& command, const Scene& scene, const Light& light,
                          const BakeOptions& options, std::optional<double> time_budget) {
+  if (view_count(light) > 1)
+    throw Error(Failure::usage, "--target-error", "goals are not for lights of several faces: " + light.name);
   std::optional<ProgressLine> line;
   const PolledInterrupts interrupts;
   TrialCallbacks callbacks;

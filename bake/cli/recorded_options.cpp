@@ -31,7 +31,7 @@ PointSet points_of(const std::string& name) {
 }
 
 /// As bake_metadata() wrote them. Throws std::exception on anything else.
-BakeOptions parse_options(const Json& metadata) {
+BakeOptions parse_options(const Json& metadata, bool has_several_views) {
   const Json& json = metadata.at("options");
   BakeOptions options;
   options.samples = json.at("samples").get<std::uint32_t>();
@@ -47,8 +47,11 @@ BakeOptions parse_options(const Json& metadata) {
   options.points = points_of(json.at("points").get<std::string>());
   options.mip_levels = json.at("mip_levels").get<std::uint32_t>();
   options.seed = json.at("seed").get<std::uint64_t>();
-  options.depth_tolerance = metadata.at("depth_tolerance").get<double>();
-  options.bias = metadata.at("bias").get<double>();
+  // Each of several views has its own where none was asked for.
+  const Json& lengths = has_several_views ? json : metadata;
+  if (!has_several_views || json.contains("depth_tolerance"))
+    options.depth_tolerance = lengths.at("depth_tolerance").get<double>();
+  if (!has_several_views || json.contains("bias")) options.bias = lengths.at("bias").get<double>();
   return options;
 }
 
@@ -57,7 +60,7 @@ BakeOptions parse_options(const Json& metadata) {
 std::optional<BakeOptions> recorded_options(const PenumbraMap& map, const Light& light) {
   BakeOptions options;
   try {
-    options = parse_options(metadata_of(map));
+    options = parse_options(metadata_of(map), map.views.size() > 1);
   } catch (const std::exception&) {
     return std::nullopt;
   }

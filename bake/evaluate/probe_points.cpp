@@ -18,8 +18,9 @@ constexpr std::uint64_t kDrawsPerProbe = 4000;
 /// How far off a surface its side is looked at, as a share of the depth: where shadow rays begin.
 constexpr double kOffSurface = 1e-4;
 
-/// A receiver triangle in view space that may have surface in the window.
+/// A receiver triangle in the space of a view that may have surface in its window.
 struct Candidate {
+  const View* view;
   std::array<glm::dvec3, 3> corners;
   bool both_sides;
   const Mesh* mesh;
@@ -62,7 +63,7 @@ double area(const std::array<glm::dvec3, 3>& corners) {
 
 void append_candidates(const Geometry& geometry, const View& view, std::vector<Candidate>& candidates) {
   for (const glm::uvec3& triangle : geometry.mesh->triangles) {
-    Candidate candidate{{}, !geometry.mesh->closed, geometry.mesh.get(), triangle};
+    Candidate candidate{&view, {}, !geometry.mesh->closed, geometry.mesh.get(), triangle};
     for (int c = 0; c < 3; ++c) {
       const glm::vec3& local = geometry.mesh->positions[triangle[c]];
       candidate.corners[static_cast<std::size_t>(c)] = apply(view.world_to_view, to_world(geometry, local));
@@ -104,12 +105,34 @@ glm::dvec3 point_in_pyramid(const View& view, double depth_unit, const std::arra
           (view.window[1] + unit[1] * (view.window[3] - view.window[1])) * w, z};
 }
 
-bool within_domain(const PenumbraMap& map, const glm::dvec3& p) {
-  const View& view = map.views.front();
+bool within_domain(const PenumbraMap& map, std::uint32_t index, const glm::dvec3& p) {
+  const View& view = map.views[index];
   const double w = view.projection == Projection::perspective ? p.z : 1.0;
   const std::uint32_t i = texel_of(p.x / w, view.window[0], view.window[2], view.width);
   const std::uint32_t j = texel_of(p.y / w, view.window[1], view.window[3], view.height);
-  return p.z <= domain_end(map, i, j);
+  return p.z <= domain_end(map, index, i, j);
+}
+
+/// The part of each view that is its own: where there are several, a texel less on each side.
+std::vector<View> own_parts(std::span<const View> views) {
+  std::vector<View> parts(views.begin(), views.end());
+  if (parts.size() == 1) return parts;
+  for (View& view : parts) {
+    const std::array<double, 2> texel{(view.window[2] - view.window[0]) / view.width,
+                                      (view.window[3] - view.window[1]) / view.height};
+    for (std::size_t a = 0; a < 2; ++a) {
+      view.window[a] += texel[a];
+      view.window[a + 2] -= texel[a];
+    }
+  }
+  return parts;
+}
+
+/// Of a view's pyramid between near and far, up to a factor that all have.
+double volume(const View& view) {
+  const double n = view.near_depth, f = view.far_depth;
+  const double across = (view.window[2] - view.window[0]) * (view.window[3] - view.window[1]);
+  return across * (view.projection == Projection::perspective ? f * f * f - n * n * n : f - n);
 }
 
 }  // namespace
@@ -119,9 +142,10 @@ bool in_window(const View& view, const glm::dvec3& view_point) {
   return view_point.z > 0 && std::all_of(sides.begin(), sides.end(), [](double s) { return s >= 0; });
 }
 
-double domain_end(const PenumbraMap& map, std::uint32_t i, std::uint32_t j) {
-  const View& view = map.views.front();
-  const FunctionImage& image = map.images.front();
+double domain_end(const PenumbraMap& map, std::uint32_t index, std::uint32_t i, std::uint32_t j) {
+  const View& view = map.views[index];
+  const FunctionImage& image = *std::ranges::find_if(
+      map.images, [&](const FunctionImage& of) { return of.view == index && of.level == 0; });
   const std::uint32_t bx = i / kBlockSize, by = j / kBlockSize;
   const FunctionBlock& block = image.blocks[std::size_t{by} * image.blocks_across() + bx];
   if (block.domain_end.empty()) return view.far_depth;
@@ -130,10 +154,14 @@ double domain_end(const PenumbraMap& map, std::uint32_t i, std::uint32_t j) {
   return decode_depth(view, map.coding, block.domain_end[texel]);
 }
 
-SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t count, std::uint64_t seed) {
+SurfaceProbes surface_probes(const Scene& scene, std::span<const View> views, std::uint32_t count,
+                             std::uint64_t seed) {
+  const std::vector<View> parts = own_parts(views);
   std::vector<Candidate> candidates;
-  for (const Geometry& geometry : scene.geometry) {
-    if (geometry.receives) append_candidates(geometry, view, candidates);
+  for (const View& view : parts) {
+    for (const Geometry& geometry : scene.geometry) {
+      if (geometry.receives) append_candidates(geometry, view, candidates);
+    }
   }
   SurfaceProbes probes;
   if (candidates.empty()) return probes;
@@ -142,12 +170,13 @@ SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t
   std::vector<double> area_up_to;
   double total = 0;
   for (const Candidate& candidate : candidates) area_up_to.push_back(total += area(candidate.corners));
-  const RigidTransform view_to_world = inverse(view.world_to_view);
   const Solids solids(scene);
   for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.points.size() < count; ++draw) {
     const double at = hash_unit(seed, 2 * draw) * total;
     const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
     const Candidate& candidate = candidates[static_cast<std::size_t>(found - area_up_to.begin())];
+    const View& view = *candidate.view;
+    const RigidTransform view_to_world = inverse(view.world_to_view);
     const glm::dvec3 weights = weights_in_triangle(hash_unit_pair(seed, 2 * draw + 1));
     const glm::dvec3 p = candidate.point(weights);
     if (!in_window(view, p) || p.z > view.far_depth) continue;
@@ -162,13 +191,19 @@ SurfaceProbes surface_probes(const Scene& scene, const View& view, std::uint32_t
 }
 
 std::vector<glm::dvec3> free_probes(const PenumbraMap& map, std::uint32_t count, std::uint64_t seed) {
-  const View& view = map.views.front();
-  const RigidTransform view_to_world = inverse(view.world_to_view);
+  const std::vector<View> parts = own_parts(map.views);
+  std::vector<double> volume_up_to;
+  double total = 0;
+  for (const View& view : parts) volume_up_to.push_back(total += volume(view));
   std::vector<glm::dvec3> probes;
   for (std::uint64_t draw = 0; draw < kDrawsPerProbe * count && probes.size() < count; ++draw) {
+    const auto found =
+        std::upper_bound(volume_up_to.begin(), volume_up_to.end() - 1, hash_unit(~seed, draw) * total);
+    const auto index = static_cast<std::uint32_t>(found - volume_up_to.begin());
+    const View& view = parts[index];
     const glm::dvec3 p =
         point_in_pyramid(view, hash_unit(seed, 2 * draw), hash_unit_pair(seed, 2 * draw + 1));
-    if (within_domain(map, p)) probes.push_back(apply(view_to_world, p));
+    if (within_domain(map, index, p)) probes.push_back(apply(inverse(view.world_to_view), p));
   }
   return probes;
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "evaluate/probe_points.h"
-#include "pdsm/format/error.h"
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
 
@@ -31,11 +30,10 @@ std::size_t ProbedTruth::shadowed_points() const {
 
 ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light& light,
                         const VerifyOptions& options) {
-  if (map.views.size() != 1) throw Error(Failure::input, "views", "only maps of one view can be verified");
-  const View& view = map.views.front();
   const std::uint32_t on_surfaces = options.free_space ? (options.points + 1) / 2 : options.points;
   ProbedTruth truth;
-  SurfaceProbes on_receivers = surface_probes(scene, view, on_surfaces, hash_bits(options.seed, kSurface));
+  SurfaceProbes on_receivers =
+      surface_probes(scene, map.views, on_surfaces, hash_bits(options.seed, kSurface));
   truth.buried = on_receivers.buried;
   truth.points = std::move(on_receivers.points);
   truth.surface_points = truth.points.size();
@@ -43,7 +41,7 @@ ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light&
       free_probes(map, options.points - on_surfaces, hash_bits(options.seed, kFree));
   truth.points.insert(truth.points.end(), in_air.begin(), in_air.end());
 
-  const ShadowRays rays(scene, light, view.near_depth);
+  const ShadowRays rays(scene, light, map.views.front().near_depth);
   const std::uint32_t half = std::max(1U, options.samples / 2);
   truth.a = rays.attenuations(truth.points, half, hash_bits(options.seed, kTruthA));
   truth.b = rays.attenuations(truth.points, half, hash_bits(options.seed, kTruthB));

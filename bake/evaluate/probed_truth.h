@@ -32,7 +32,7 @@ struct ProbedTruth {
 };
 
 /// Chooses the points for `map`, of `light`, and traces the truth. Uses all threads; the result does not
-/// depend on their number. Throws Error (input) for maps of several views.
+/// depend on their number.
 [[nodiscard]] ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light& light,
                                       const VerifyOptions& options);
 

@@ -30,7 +30,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
   const glm::dvec3 origin = apply(light_to_world, glm::dvec3(0));
   StudioLight studio;
   studio.distant = is_distant(light);
-  studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
+  if (!is_sphere(light)) studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
   std::size_t n = 0;
   for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
     for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
@@ -42,8 +42,8 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
   const glm::dvec3 to_centre = studio.distant ? centre : centre - focus.centre;
   float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(to_centre)));
   if (!(reference > 0)) {
-    const glm::dvec3 in_front = centre + 2 * focus.radius * studio.direction;
-    reference = irradiance(studio, in_front, glm::vec3(-studio.direction));
+    const glm::dvec3 ahead = is_sphere(light) ? glm::dvec3(0, -1, 0) : studio.direction;
+    reference = irradiance(studio, centre + 2 * focus.radius * ahead, glm::vec3(-ahead));
   }
   studio.colour = colour / reference;
   return studio;
@@ -55,7 +55,8 @@ float irradiance(const StudioLight& light, const glm::dvec3& position, const glm
     const glm::dvec3 to_light = light.distant ? on_light : on_light - position;
     const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
     const double at_surface = glm::dot(glm::dvec3(normal), to_light),
-                 at_light = -glm::dot(light.direction, to_light);
+                 at_light = light.direction == glm::dvec3(0) ? std::sqrt(squared)
+                                                             : -glm::dot(light.direction, to_light);
     if (at_surface > 0 && at_light > 0) sum += at_surface * at_light / (squared * squared);
   }
   return static_cast<float>(sum / static_cast<double>(light.points.size()));

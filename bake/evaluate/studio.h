@@ -25,7 +25,7 @@ struct StudioLight {
   /// World, metres; of a distant light unit vectors towards it. The centre is points[4].
   std::array<glm::dvec3, 9> points{};
   bool distant = false;
-  glm::dvec3 direction{0};  ///< unit
+  glm::dvec3 direction{0};  ///< unit; 0 of a light that shines to all sides
   glm::vec3 colour{1};      ///< times irradiance(): light that arrives
 };
 

@@ -29,7 +29,7 @@ struct VerifyResult {
 };
 
 /// Measures `map`, of `light`, against shadow rays through `scene`. Uses all threads; the result does not
-/// depend on their number. Throws Error (input) for maps of several views.
+/// depend on their number.
 [[nodiscard]] VerifyResult verify(const PenumbraMap& map, const Scene& scene, const Light& light,
                                   const VerifyOptions& options = {});
 

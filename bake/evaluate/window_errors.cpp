@@ -9,7 +9,6 @@
 
 #include "evaluate/heat_map.h"
 #include "evaluate/last_receivers.h"
-#include "pdsm/format/error.h"
 #include "pdsm/runtime/look_up.h"
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
@@ -36,11 +35,11 @@ std::vector<float> from_top(std::uint32_t width, std::uint32_t height, std::span
 
 std::vector<TexelError> measure_texels(const PenumbraMap& map, const Scene& scene, const Light& light,
                                        std::span<const std::array<std::uint32_t, 2>> texels,
-                                       std::uint32_t samples, std::uint64_t seed) {
-  if (map.views.size() != 1) throw Error(Failure::input, "views", "only maps of one view can be verified");
-  const View& view = map.views.front();
+                                       std::uint32_t samples, std::uint64_t seed,
+                                       std::uint32_t index_of_view) {
+  const View& view = map.views[index_of_view];
   const LastReceivers receivers(scene, view);
-  const ShadowRays rays(scene, light, view.near_depth);
+  const ShadowRays rays(scene, light, map.views.front().near_depth);
   const PenumbraLookUp look_up(map);
   std::vector<TexelError> errors(texels.size());
 #pragma omp parallel for schedule(dynamic, 64)

@@ -25,7 +25,8 @@ struct TexelError {
 [[nodiscard]] std::vector<TexelError> measure_texels(const PenumbraMap& map, const Scene& scene,
                                                      const Light& light,
                                                      std::span<const std::array<std::uint32_t, 2>> texels,
-                                                     std::uint32_t samples, std::uint64_t seed);
+                                                     std::uint32_t samples, std::uint64_t seed,
+                                                     std::uint32_t view = 0);
 
 /// All texels of a view, row by row from y0.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> all_texels(const View& view);

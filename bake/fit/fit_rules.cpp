@@ -26,8 +26,9 @@ void choose_value_coding(FitRules& rules) {
   rules.coding.value_max = (1u << rules.coding.value_bits) - 1;
 }
 
-void choose_depth_coding(const View& view, double depth_tolerance, FitRules& rules) {
-  rules.coding.depth_bits = 16;
+void choose_depth_coding(const View& view, double depth_tolerance, std::uint32_t least_bits,
+                         FitRules& rules) {
+  rules.coding.depth_bits = least_bits;
   if (depth_tolerance < kLeastToleranceSteps * depth_step(view, rules.coding)) rules.coding.depth_bits = 32;
   const double step = depth_step(view, rules.coding);
   // Any window of 2 delta must hold a code.
@@ -64,14 +65,14 @@ bool is_lossless(double epsilon) {
 }
 
 FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon, double depth_tolerance,
-                        std::uint32_t transmittance_unit) {
+                        std::uint32_t transmittance_unit, std::uint32_t least_depth_bits) {
   FitRules rules;
   rules.sample_count = sample_count * transmittance_unit;
   rules.transmittance_unit = transmittance_unit;
   rules.epsilon = epsilon;
   choose_value_coding(rules);
   rules.value_codes = rules.coding.value_max;
-  choose_depth_coding(view, depth_tolerance, rules);
+  choose_depth_coding(view, depth_tolerance, least_depth_bits, rules);
   choose_bounds(rules);
   if (transmittance_unit == 1) fill_tables(rules);
   return rules;

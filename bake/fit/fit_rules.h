@@ -67,9 +67,10 @@ struct FitRules {
 /// Chooses the coding that epsilon and delta need, the smallest that serves:
 ///   values  8 bits while a code is at most a quarter of the tube, else 16; 0 <= epsilon < 4 codes of 16
 ///           bits: counts of N, exact, as wide as N needs
-///   depths  16 bits while two steps are within delta, else 32
+///   depths  16 bits while two steps are within delta, else 32; no fewer than `least_depth_bits`
 [[nodiscard]] FitRules make_fit_rules(const View& view, std::uint32_t sample_count, double epsilon,
-                                      double depth_tolerance, std::uint32_t transmittance_unit = 1);
+                                      double depth_tolerance, std::uint32_t transmittance_unit = 1,
+                                      std::uint32_t least_depth_bits = 16);
 
 /// Whether make_fit_rules() makes lossless ones, whose values are counts of light samples.
 [[nodiscard]] bool is_lossless(double epsilon);

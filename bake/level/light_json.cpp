@@ -14,10 +14,14 @@ nlohmann::ordered_json light_json(const Light& light) {
   } else if (const auto* sun = std::get_if<DistantLight>(&light.shape)) {
     json["type"] = "distant";
     json["angle"] = sun->angle;
+  } else if (const auto* sphere = std::get_if<SphereLight>(&light.shape)) {
+    json["type"] = "sphere";
+    json["radius"] = sphere->radius;
   } else {
     json["type"] = "disk";
     json["radius"] = std::get<DiskLight>(light.shape).radius;
   }
+  if (view_count(light) > 1) json["faces"] = view_count(light);
   if (!is_distant(light)) json["position"] = {light.position.x, light.position.y, light.position.z};
   json["direction"] = {r[6], r[7], r[8]};
   json["up"] = {r[3], r[4], r[5]};

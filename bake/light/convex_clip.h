@@ -16,10 +16,10 @@ struct HalfSpace {
   [[nodiscard]] double distance(const glm::dvec3& p) const { return glm::dot(normal, p) + offset; }
 };
 
-/// The intersection of up to six half-spaces.
+/// The intersection of up to seven half-spaces.
 class ConvexRegion {
  public:
-  static constexpr std::size_t kMaxHalfSpaces = 6;
+  static constexpr std::size_t kMaxHalfSpaces = 7;
 
   /// Adds a half-space; at most kMaxHalfSpaces in all.
   void add(const HalfSpace& half_space);

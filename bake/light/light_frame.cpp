@@ -84,6 +84,7 @@ std::array<double, 2> half_extents(const Light& light) {
     const double tangent = std::tan(sun->angle / 2 * (std::numbers::pi / 180));
     return {tangent, tangent};
   }
+  if (const auto* sphere = std::get_if<SphereLight>(&light.shape)) return {sphere->radius, sphere->radius};
   const double radius = std::get<DiskLight>(light.shape).radius;
   return {radius, radius};
 }

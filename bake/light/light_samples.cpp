@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Point sets on planar lights and of directions to distant ones, and the sub-texel jitter of each sample's
-// map.
+// Point sets on planar lights, in spheres and of directions to distant ones, and the sub-texel jitter of each
+// sample's map.
 //
 // Fibonacci lattice: Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992.
+// Uniform points of the unit 3-sphere: Marsaglia, Choosing a Point from the Surface of a Sphere, 1972.
 // Sunflower: Vogel, A better way to construct the sunflower head, 1979.
 // Concentric map: Shirley, Chiu, A Low Distortion Map Between Disk and Square, 1997.
 // R2 sequence: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
@@ -128,17 +129,51 @@ Point2 sample_shape(const DistantLight& light, std::uint32_t i, std::uint32_t co
   return {p[0] * scale, p[1] * scale};
 }
 
-/// One sample stands for the whole light at its centre.
-Point2 sample_light(const LightShape& any_shape, std::uint32_t i, std::uint32_t count, PointSet points,
-                    std::uint64_t seed) {
-  if (count == 1) return {0, 0};
-  return std::visit([&](const auto& shape) { return sample_shape(shape, i, count, points, seed); },
-                    any_shape);
+/// Points of the unit ball with density 1 / sqrt(1 - rho^2), whose projections to any plane are uniform on
+/// its disk (docs/maths.md, "Sphere lights"): uniform points of the unit sphere in four dimensions, the last
+/// coordinate dropped. Those are (sqrt(a) e^(2 pi i b), sqrt(1 - a) e^(2 pi i c)) of a point (a, b, c) of the
+/// unit cube.
+std::array<double, 3> ball_point(std::uint32_t i, std::uint32_t count, PointSet points, std::uint64_t seed) {
+  double a = fraction((i + 0.5) / count + seed_shift(seed, 2)),
+         b = fraction(i * kInversePlastic + seed_shift(seed, 3)),
+         c = fraction(i * kInversePlasticSquared + seed_shift(seed, 6));
+  if (points == PointSet::jittered) {
+    a = (i + hash_uniform(seed, i, 0)) / count;
+    b = hash_uniform(seed, i, 1);
+    c = hash_uniform(seed, i, 7);
+  }
+  const double angle = 2 * std::numbers::pi * b;
+  return {std::sqrt(a) * std::cos(angle), std::sqrt(a) * std::sin(angle),
+          std::sqrt(1 - a) * std::cos(2 * std::numbers::pi * c)};
 }
 
-Point2 sample_picture(const RectLight& light, const EmissionWarp& warp, std::uint32_t i, std::uint32_t count,
-                      PointSet points, std::uint64_t seed) {
-  return on_face(light, warp(count == 1 ? Point2{0.5, 0.5} : rect_point(light, i, count, points, seed)));
+std::array<double, 3> sample_sphere(const SphereLight& light, std::uint32_t i, std::uint32_t count,
+                                    PointSet points, std::uint64_t seed) {
+  if (count == 1) return {0, 0, 0};
+  const auto p = ball_point(i, count, points, seed);
+  return {p[0] * light.radius, p[1] * light.radius, p[2] * light.radius};
+}
+
+/// One sample stands for the whole light at its centre.
+std::array<double, 3> sample_light(const LightShape& any_shape, std::uint32_t i, std::uint32_t count,
+                                   PointSet points, std::uint64_t seed) {
+  if (const auto* sphere = std::get_if<SphereLight>(&any_shape))
+    return sample_sphere(*sphere, i, count, points, seed);
+  const auto* sun = std::get_if<DistantLight>(&any_shape);
+  const double z = sun != nullptr ? 1.0 : 0.0;
+  if (count == 1) return {0, 0, z};
+  const auto* rect = std::get_if<RectLight>(&any_shape);
+  const Point2 p = sun != nullptr    ? sample_shape(*sun, i, count, points, seed)
+                   : rect != nullptr ? sample_shape(*rect, i, count, points, seed)
+                                     : sample_shape(std::get<DiskLight>(any_shape), i, count, points, seed);
+  return {p[0], p[1], z};
+}
+
+std::array<double, 3> sample_picture(const RectLight& light, const EmissionWarp& warp, std::uint32_t i,
+                                     std::uint32_t count, PointSet points, std::uint64_t seed) {
+  const Point2 p =
+      on_face(light, warp(count == 1 ? Point2{0.5, 0.5} : rect_point(light, i, count, points, seed)));
+  return {p[0], p[1], 0};
 }
 
 /// In [-0.5, 0.5), 0 for the first sample of seed 0.
@@ -156,9 +191,9 @@ std::vector<LightSample> make_light_samples(const Light& light, std::uint32_t co
   std::optional<EmissionWarp> warp;
   if (light.emission) warp.emplace(*light.emission);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Point2 p = warp ? sample_picture(std::get<RectLight>(light.shape), *warp, i, count, points, seed)
-                          : sample_light(light.shape, i, count, points, seed);
-    samples[i].position = {p[0], p[1], is_distant(light) ? 1.0 : 0.0};
+    samples[i].position =
+        warp ? sample_picture(std::get<RectLight>(light.shape), *warp, i, count, points, seed)
+             : sample_light(light.shape, i, count, points, seed);
     samples[i].jitter = {map_jitter(i, kInversePlastic, seed, 4),
                          map_jitter(i, kInversePlasticSquared, seed, 5)};
     samples[i].weight = 1;

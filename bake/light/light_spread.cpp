@@ -8,6 +8,11 @@ namespace pdsm {
 
 LightSpread::LightSpread(const Light& light) : distant_(is_distant(light)), half_(half_extents(light)) {}
 
+LightSpread::LightSpread(const LightFace& face)
+    : distant_(is_distant(face.light)), half_{face.reach[0], face.reach[1]}, half_depth_(face.reach[2]) {
+  if (face.front) in_front_ = HalfSpace{*face.front, -face.emitter_skin()};
+}
+
 std::array<double, 2> LightSpread::place(const glm::dvec3& p) const {
   if (distant_) return {p.x, p.y};
   return {p.x / p.z, p.y / p.z};
@@ -23,7 +28,8 @@ Window LightSpread::shadow(const glm::dvec3& p, double deepest) const {
           (p.y + hy) / p.z - hy / deepest};
 }
 
-ConvexRegion LightSpread::hull_of(const std::array<double, 2>& h, const Window& window, double far) const {
+ConvexRegion LightSpread::hull_of(const std::array<double, 2>& h, double half_depth, const Window& window,
+                                  double far) const {
   ConvexRegion region;
   for (int axis = 0; axis < 2; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
@@ -35,6 +41,11 @@ ConvexRegion LightSpread::hull_of(const std::array<double, 2>& h, const Window& 
       low.z = high.z = -h[i];
       region.add({low, spread - window[i]});
       region.add({high, spread + window[i + 2]});
+    } else if (half_depth > 0) {
+      low.z = -window[i];
+      high.z = window[i + 2];
+      region.add({low, h[i] + std::abs(window[i]) * half_depth});
+      region.add({high, h[i] + std::abs(window[i + 2]) * half_depth});
     } else {
       const double spread = h[i] == 0 ? 0 : h[i] / far;
       low.z = -window[i] - spread;
@@ -43,21 +54,23 @@ ConvexRegion LightSpread::hull_of(const std::array<double, 2>& h, const Window& 
       region.add({high, h[i]});
     }
   }
+  if (in_front_) region.add(*in_front_);
   return region;
 }
 
 ConvexRegion LightSpread::hull(const Window& window, double far) const {
-  return hull_of(half_, window, far);
+  return hull_of(half_, half_depth_, window, far);
 }
 
 ConvexRegion LightSpread::pyramid(const Window& window) const {
-  return hull_of({0, 0}, window, std::numeric_limits<double>::infinity());
+  return hull_of({0, 0}, 0, window, std::numeric_limits<double>::infinity());
 }
 
 bool LightSpread::reaches_front(const std::array<glm::dvec3, 3>& triangle) const {
   const glm::dvec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
   // The farthest that the emitter (or the directions towards it) reaches along the normal.
-  const double reach = std::abs(normal.x) * half_[0] + std::abs(normal.y) * half_[1];
+  const double reach =
+      std::abs(normal.x) * half_[0] + std::abs(normal.y) * half_[1] + std::abs(normal.z) * half_depth_;
   return reach - (distant_ ? normal.z : glm::dot(normal, triangle[0])) > 0;
 }
 

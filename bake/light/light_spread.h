@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "light/convex_clip.h"
+#include "light/light_faces.h"
 #include "pdsm/bake/scene.h"
 
 namespace pdsm {
@@ -27,10 +28,14 @@ using Window = std::array<double, 4>;
 /// Hull. What can block a point that the window [w0, w1] sees up to depth far lies, per axis, in
 ///     z w0 - h (1 - z / far)  <=  p  <=  z w1 + h (1 - z / far)       planar
 ///     w0 - h (far - z)        <=  p  <=  w1 + h (far - z)             distant
-/// linear in z, so four half-spaces.
+/// linear in z, so four half-spaces. Where the light reaches l before and behind the view's centre, as in all
+/// views of a sphere and along the plane of a planar light, the hull is bounded by the pyramid's sides, moved
+/// out until all of the light is inside: z w0 - h - |w0| l <= p. What a planar light has behind it is left
+/// out.
 class LightSpread {
  public:
   explicit LightSpread(const Light& light);
+  explicit LightSpread(const LightFace& face);
 
   [[nodiscard]] bool distant() const { return distant_; }
   /// Where a window sees a point in front of the light.
@@ -48,10 +53,13 @@ class LightSpread {
   [[nodiscard]] std::array<glm::dvec3, 4> corners(const Window& window, double deepest) const;
 
  private:
-  [[nodiscard]] ConvexRegion hull_of(const std::array<double, 2>& h, const Window& window, double far) const;
+  [[nodiscard]] ConvexRegion hull_of(const std::array<double, 2>& h, double half_depth, const Window& window,
+                                     double far) const;
 
   bool distant_;
   std::array<double, 2> half_;
+  double half_depth_ = 0;              ///< of the light's box along z
+  std::optional<HalfSpace> in_front_;  ///< of the light's plane, where the view looks along it
 };
 
 }  // namespace pdsm

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "light/convex_clip.h"
+#include "light/fit_face.h"
+#include "light/light_faces.h"
 #include "light/light_geometry.h"
 #include "light/light_spread.h"
 #include "pdsm/format/error.h"
@@ -26,6 +28,9 @@ constexpr double kMaxTangent = std::numbers::sqrt3;
 // and a near of 0 has no perspective. Also the depth that geometry may reach behind a surface that is
 // taken for the scene's outer boundary.
 constexpr double kEmitterSkin = 1e-4;
+// A view that the light reaches into in depth begins at so many times that reach: walks grow as the inverse
+// of what is between samples and near.
+constexpr double kNearByReach = 2;
 // Relative room between near, far and the surfaces they are fitted to, so that rounding to float does
 // not put those outside.
 constexpr double kDepthPad = 1e-6;
@@ -126,8 +131,8 @@ void visit_inside(const LightTriangle& triangle, const ConvexRegion& region, Vis
 /// One light and one scene while a view is fitted.
 class ViewFitter {
  public:
-  ViewFitter(const Scene& scene, const Light& light)
-      : scene_(scene), light_(light), space_(light), spread_(light) {}
+  ViewFitter(const Scene& scene, const LightFace& face)
+      : scene_(scene), face_(face), light_(face.light), space_(face.light), spread_(face) {}
 
   [[nodiscard]] FittedView fit() const;
 
@@ -142,11 +147,14 @@ class ViewFitter {
   [[nodiscard]] Window widest_window() const { return spread_.distant() ? kUnboundedWindow : kWidestWindow; }
   /// Depth up to which geometry is the emitter, in a scene as deep as `deepest`: none before a distant light.
   [[nodiscard]] double emitter_depth(double deepest) const {
+    if (face_.reach[2] > 0) return -face_.reach[2];
     return spread_.distant() ? -kInfinity : kEmitterSkin * deepest;
   }
+  [[nodiscard]] double fit_near(double nearest, const FittedView& fitted) const;
   [[nodiscard]] Window pad_window(Window window, double deepest) const;
 
   const Scene& scene_;
+  const LightFace& face_;
   const Light& light_;
   LightSpace space_;
   LightSpread spread_;
@@ -295,6 +303,17 @@ double ViewFitter::share_outside(const Window& window) const {
   return total > 0 ? std::clamp(1 - inside / total, 0.0, 1.0) : 0.0;
 }
 
+/// The nearest caster's depth, but no nearer than the light leaves room for.
+double ViewFitter::fit_near(double nearest, const FittedView& fitted) const {
+  const double far = fitted.view.far_depth, least = kNearByReach * face_.reach[2];
+  if (!(least > 0)) {
+    // Without casters any near is right; one that is not tiny keeps the projection well-conditioned.
+    const double fitted_near = fitted.nothing_casts ? far / 2 : nearest * (1 - kDepthPad);
+    return std::max(fitted_near, emitter_depth(far));
+  }
+  return std::max({least, kEmitterSkin * far, fitted.nothing_casts ? far / 2 : nearest * (1 - kDepthPad)});
+}
+
 FittedView ViewFitter::fit() const {
   FittedView fitted;
   View& view = fitted.view;
@@ -315,13 +334,17 @@ FittedView ViewFitter::fit() const {
   fitted.near_fitted = !light_.near_depth;
   const double nearest = nearest_caster(view.window, deepest, view.far_depth);
   fitted.nothing_casts = nearest == kInfinity;
-  // Without casters any near is right; one that is not tiny keeps the projection well-conditioned.
-  const double fitted_near = fitted.nothing_casts ? view.far_depth / 2 : nearest * (1 - kDepthPad);
-  if (!(nearest > 0)) {
+  if (!(nearest > 0) && spread_.distant()) {
     throw Error(Failure::input, light_.name + ".position",
                 "a distant light's space must begin in front of its casters: see place_distant_light()");
   }
-  view.near_depth = light_.near_depth.value_or(std::max(fitted_near, emitter_depth(view.far_depth)));
+  view.near_depth = light_.near_depth ? *light_.near_depth : fit_near(nearest, fitted);
+  if (face_.is_one_of_several) {
+    fitted.casts_before_near = nearest < view.near_depth * (1 - 2 * kDepthPad);
+    // A view that nothing lies in behind its near has nothing to tell, but needs a depth.
+    if (fitted.far_fitted) view.far_depth = std::max(view.far_depth, kNearByReach * view.near_depth);
+    return fitted;
+  }
   fitted.receivers_outside = share_outside(view.window);
   return fitted;
 }
@@ -351,18 +374,26 @@ void check_request(const Light& light) {
 
 }  // namespace
 
-FittedView fit_view(const Scene& scene, const Light& light, std::uint32_t width, std::uint32_t height) {
+FittedView fit_face(const Scene& scene, const LightFace& face) {
+  const Light& light = face.light;
   check_request(light);
-  FittedView fitted = ViewFitter(scene, light).fit();
+  FittedView fitted = ViewFitter(scene, face).fit();
   const View& view = fitted.view;
+  if (!(view.near_depth > face.reach[2]))
+    throw Error(Failure::input, light.name + ".near",
+                fmt::format("must be more than the light's own extent ({:.6g} m)", face.reach[2]));
   if (!(view.near_depth < view.far_depth)) {
     const char* origin = fitted.far_fitted ? ", the farthest receiver" : "";
     throw Error(Failure::input, light.name + ".near",
                 fmt::format("must be less than far ({:.6g}{})", view.far_depth, origin));
   }
-  fitted.view.width = width;
-  fitted.view.height = height;
+  fitted.view.width = face.width;
+  fitted.view.height = face.height;
   return fitted;
+}
+
+FittedView fit_view(const Scene& scene, const Light& light, std::uint32_t width, std::uint32_t height) {
+  return fit_face(scene, light_face(light, 0, width, height));
 }
 
 }  // namespace pdsm

@@ -59,9 +59,10 @@ std::vector<PartRecord> CheckpointLog::read() {
   return std::move(scan->records);
 }
 
-void CheckpointLog::keep(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base) {
+void CheckpointLog::keep(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base,
+                         std::uint32_t first_block) {
   std::vector<std::byte> bytes;
-  append_block(coding, block, base, bytes);
+  append_block(coding, block, base, first_block, bytes);
   add(bytes);
 }
 

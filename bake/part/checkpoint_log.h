@@ -32,7 +32,8 @@ class CheckpointLog {
   void release_records() { mapped_.reset(); }
 
   /// Takes a finished block; `base` is its level 0, encoded. Any thread.
-  void keep(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base);
+  void keep(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base,
+            std::uint32_t first_block);
   /// Takes what a finished tile took. Any thread.
   void keep(const TileStatistics& tile);
   /// Writes what waits, if it is time. Any thread.

@@ -14,6 +14,9 @@ namespace {
 /// Bakes make maps of one channel.
 constexpr std::uint32_t kChannels = 1;
 
+/// Views that a light may have.
+constexpr std::uint32_t kMostViews = 6;
+
 /// Bits of FactsRecord::flags.
 enum FactFlag : std::uint32_t {
   kWindowFitted = 1,
@@ -27,7 +30,8 @@ enum FactFlag : std::uint32_t {
   kHasEmission = 256,
   kHasBlockKeys = 512,
   kHasTranslucency = 1024,
-  kAllFlags = 2047
+  kCastsBeforeNear = 2048,
+  kAllFlags = 4095
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -37,7 +41,8 @@ std::uint32_t flags_of(const BakeFacts& facts) {
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
          bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
          bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys) |
-         bit(facts.has_translucency, kHasTranslucency);
+         bit(facts.has_translucency, kHasTranslucency) |
+         bit(facts.fitted.casts_before_near, kCastsBeforeNear);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -45,6 +50,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.fitted.near_fitted = (flags & kNearFitted) != 0;
   facts.fitted.far_fitted = (flags & kFarFitted) != 0;
   facts.fitted.nothing_casts = (flags & kNothingCasts) != 0;
+  facts.fitted.casts_before_near = (flags & kCastsBeforeNear) != 0;
   facts.has_shadows = (flags & kHasShadows) != 0;
   facts.is_projected = (flags & kIsProjected) != 0;
   facts.shift_law = (flags & kShiftLaw) != 0;
@@ -100,6 +106,21 @@ bool makes_a_map(const BakeFacts& facts) {
   return facts.mip_levels <= std::min(most, kMostMipLevels);
 }
 
+/// Views after the first. All have its levels, its coding and its ends.
+bool read_more_views(std::uint32_t count, ByteReader& reader, MapFacts& facts) {
+  const BakeFacts first = facts.front();
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const auto record = reader.value<FactsRecord>();
+    if (!reader.ok() || !is_sound(record)) return false;
+    if ((record.samples | record.isa_bytes | record.description_bytes | record.more_views) != 0) return false;
+    const BakeFacts& next = facts.emplace_back(facts_of(record));
+    const bool is_kin = next.coding == first.coding && next.mip_levels == first.mip_levels &&
+                        next.receivers == first.receivers;
+    if (!is_kin || !makes_a_map(next)) return false;
+  }
+  return true;
+}
+
 bool read_samples(std::uint32_t count, ByteReader& reader, std::vector<LightSample>& samples) {
   if (std::uint64_t{count} * sizeof(FactsSample) > reader.remaining()) return false;
   for (std::uint32_t n = 0; n < count; ++n) {
@@ -118,12 +139,8 @@ bool read_text(std::uint32_t size, ByteReader& reader, std::string& text) {
   return reader.ok();
 }
 
-}  // namespace
-
-std::vector<std::byte> encode_facts(const DescribedFacts& described) {
-  const BakeFacts& facts = described.facts;
+FactsRecord record_of(const BakeFacts& facts) {
   const View& view = facts.fitted.view;
-  const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
   FactsRecord record;
   record.rotation = view.world_to_view.rotation;
   record.translation = view.world_to_view.translation;
@@ -150,11 +167,23 @@ std::vector<std::byte> encode_facts(const DescribedFacts& described) {
   record.walk = static_cast<std::uint32_t>(facts.walk);
   record.receivers = static_cast<std::uint32_t>(facts.receivers);
   record.flags = flags_of(facts);
+  return record;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_facts(const DescribedFacts& described) {
+  const BakeFacts& facts = described.facts.front();
+  const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
+  FactsRecord record = record_of(facts);
+  record.more_views = size(described.facts) - 1;
   record.samples = size(facts.samples);
   record.isa_bytes = size(facts.isa);
   record.description_bytes = size(described.description);
   std::vector<std::byte> bytes;
   append_value(bytes, record);
+  for (std::size_t view = 1; view < described.facts.size(); ++view)
+    append_value(bytes, record_of(described.facts[view]));
   for (const LightSample& sample : facts.samples)
     append_value(bytes, FactsSample{sample.position, sample.jitter, sample.weight, 0});
   append_array<char>(bytes, facts.isa);
@@ -165,13 +194,15 @@ std::vector<std::byte> encode_facts(const DescribedFacts& described) {
 std::optional<DescribedFacts> decode_facts(std::span<const std::byte> payload) {
   ByteReader reader(payload);
   const auto record = reader.value<FactsRecord>();
-  if (!reader.ok() || record.reserved != 0 || !is_sound(record)) return {};
-  DescribedFacts described{facts_of(record), {}};
+  if (!reader.ok() || record.more_views >= kMostViews || !is_sound(record)) return {};
+  DescribedFacts described{{facts_of(record)}, {}};
+  described.facts.reserve(record.more_views + 1);
+  BakeFacts& first = described.facts.front();
+  if (!makes_a_map(first) || !read_more_views(record.more_views, reader, described.facts)) return {};
   const bool whole =
-      makes_a_map(described.facts) && read_samples(record.samples, reader, described.facts.samples) &&
-      read_text(record.isa_bytes, reader, described.facts.isa) &&
+      read_samples(record.samples, reader, first.samples) && read_text(record.isa_bytes, reader, first.isa) &&
       read_text(record.description_bytes, reader, described.description) && reader.remaining() == 0;
-  if (!whole || described.facts.samples.empty() || check_metadata(described.description)) return {};
+  if (!whole || first.samples.empty() || check_metadata(described.description)) return {};
   return described;
 }
 

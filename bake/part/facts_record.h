@@ -9,11 +9,11 @@
 
 #include "tile/bake_facts.h"
 
-/// The BAKE record of a shard: what is known of the bake before its first block.
+/// The BAKE record of a shard: what is known of the bake of each view before its first block.
 namespace pdsm {
 
 struct DescribedFacts {
-  BakeFacts facts;
+  MapFacts facts;
   std::string description = "{}";  ///< the caller's, one JSON object
 };
 

@@ -11,18 +11,22 @@
 
 namespace pdsm {
 
-PartShape part_shape(const BakeJob& job) {
-  return {job.rules.coding, job.grid.texels[0], job.grid.texels[1], job.mip_levels,
-          job.options.receivers != Receivers::all};
+PartShape part_shape(const BakeJob& job, std::uint32_t first_block) {
+  return {job.rules.coding,
+          job.grid.texels[0],
+          job.grid.texels[1],
+          job.mip_levels,
+          job.options.receivers != Receivers::all,
+          first_block};
 }
 
 TileRunOutput logged_output(const BakeJob& job, const BakeCallbacks& callbacks, CheckpointLog* log,
-                            EncodedSink sink) {
+                            std::uint32_t first_block, EncodedSink sink) {
   TileRunOutput output;
   output.callbacks = callbacks;
-  output.take = [log, coding = job.rules.coding, sink = std::move(sink)](FittedBlock&& block) {
+  output.take = [log, first_block, coding = job.rules.coding, sink = std::move(sink)](FittedBlock&& block) {
     EncodedBlock base = encode_block(coding, block.width, block.height, block.levels.front());
-    if (log != nullptr) log->keep(coding, block, base);
+    if (log != nullptr) log->keep(coding, block, base, first_block);
     sink(std::move(block), std::move(base));
   };
   if (log == nullptr) return output;
@@ -41,10 +45,9 @@ bool lacks_key(const TileInput& input, const FittedBlock& block) {
 
 }  // namespace
 
-TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const BakeJob& job,
-                         const TileInput& input, TileRun& run, const BlockSink& sink) {
-  const std::vector<PartRecord> records = log.begin(header);
-  const PartShape shape = part_shape(job);
+void take_over(std::span<const PartRecord> records, const BakeJob& job, std::uint32_t first_block,
+               const TileInput& input, TileRun& run, const BlockSink& sink) {
+  const PartShape shape = part_shape(job, first_block);
   std::vector<bool> is_there(block_count(job.grid));
   std::mutex mutex;
   ParallelFailure failure;
@@ -64,12 +67,14 @@ TileStatistics take_over(CheckpointLog& log, const PartHeader& header, const Bak
     });
   }
   failure.rethrow();
+}
+
+TileStatistics taken_by(std::span<const PartRecord> records) {
   TileStatistics taken;
   for (const PartRecord& record : records) {
     if (record.type != kTileRecord) continue;
     if (const auto tile = read_tile(record.payload)) taken.add(*tile);
   }
-  log.release_records();
   return taken;
 }
 

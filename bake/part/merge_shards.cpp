@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <memory>
 #include <mutex>
 
 #include "pdsm/bake/shard.h"
@@ -65,21 +66,43 @@ void check_complete(std::span<const NamedShard> shards) {
     refuse("shards", missing_text(present) + " missing");
 }
 
+/// Of level 0 of all views.
 std::uint64_t block_count(const PenumbraMap& map) {
-  const FunctionImage& base = map.images.front();
-  return std::uint64_t{base.blocks_across()} * base.blocks_up();
+  std::uint64_t count = 0;
+  for (const FunctionImage& image : map.images)
+    if (image.level == 0) count += std::uint64_t{image.blocks_across()} * image.blocks_up();
+  return count;
 }
+
+/// One view while its blocks come in.
+struct ViewMerge {
+  ViewMerge(const PartShape& of_view, std::span<const FunctionImage> images)
+      : shape(of_view), blocks(of_view.coding, images) {}
+
+  PartShape shape;
+  MapBlocks blocks;
+};
 
 /// Puts all blocks of all shards into `sink`.
 class BlockMerge {
  public:
-  BlockMerge(const BakeFacts& facts, const PenumbraMap& frame, const ReadLimits& limits)
-      : shape_{facts.coding, facts.fitted.view.width, facts.fitted.view.height, facts.mip_levels,
-               facts.receivers != Receivers::all},
-        limits_(limits),
+  BlockMerge(const MapFacts& facts, const PenumbraMap& frame, const ReadLimits& limits)
+      : limits_(limits),
         is_there_(block_count(frame)),
-        keys_(facts.has_block_keys ? block_count(frame) : 0),
-        blocks_(facts.coding, frame.images) {}
+        keys_(facts.size() == 1 && facts.front().has_block_keys ? block_count(frame) : 0) {
+    std::uint32_t first_block = 0;
+    std::span<const FunctionImage> images = frame.images;
+    for (const BakeFacts& of_view : facts) {
+      const View& view = of_view.fitted.view;
+      const auto of_this = images.first(of_view.mip_levels + 1);
+      views_.push_back(
+          std::make_unique<ViewMerge>(PartShape{of_view.coding, view.width, view.height, of_view.mip_levels,
+                                                of_view.receivers != Receivers::all, first_block},
+                                      of_this));
+      first_block += of_this.front().blocks_across() * of_this.front().blocks_up();
+      images = images.subspan(of_this.size());
+    }
+  }
 
   void take(const NamedShard& shard, std::uint32_t threads) {
     const auto& payloads = shard.contents->blocks;
@@ -96,33 +119,40 @@ class BlockMerge {
     return keys_.release();
   }
   [[nodiscard]] std::vector<std::vector<EncodedBlock>> release() {
-    return blocks_.release();
+    std::vector<std::vector<EncodedBlock>> all;
+    for (const auto& view : views_)
+      for (auto& blocks : view->blocks.release()) all.push_back(std::move(blocks));
+    return all;
   }
 
  private:
   void take_block(const std::string& name, std::size_t n, std::span<const std::byte> payload) {
-    auto block = read_block(shape_, payload, limits_);
-    if (!block) refuse(name, "block " + std::to_string(n) + " of it is damaged");
-    {
-      const std::lock_guard guard(mutex_);
-      if (is_there_[block->index]) refuse(name, "a block of it is in the shards twice");
-      is_there_[block->index] = true;
-      counts_.add(block->counts);
+    for (const auto& view : views_) {
+      auto block = read_block(view->shape, payload, limits_);
+      if (!block) continue;
+      {
+        const std::lock_guard guard(mutex_);
+        const std::uint32_t index = view->shape.first_block + block->index;
+        if (is_there_[index]) refuse(name, "a block of it is in the shards twice");
+        is_there_[index] = true;
+        counts_.add(block->counts);
+      }
+      keys_.take(*block);
+      view->blocks.take(std::move(*block));
+      return;
     }
-    keys_.take(*block);
-    blocks_.take(std::move(*block));
+    refuse(name, "block " + std::to_string(n) + " of it is damaged");
   }
 
-  PartShape shape_;
   ReadLimits limits_;
   std::vector<bool> is_there_;
   BlockKeyList keys_;
   BlockCounts counts_;
   std::mutex mutex_;  ///< of both
-  MapBlocks blocks_;
+  std::vector<std::unique_ptr<ViewMerge>> views_;
 };
 
-BakeReport merged_report(const BakeFacts& facts, const BlockCounts& counts,
+BakeReport merged_report(const MapFacts& facts, const BlockCounts& counts,
                          std::span<const NamedShard> shards) {
   TileStatistics taken;
   for (const NamedShard& shard : shards) taken.add(shard.contents->taken);
@@ -152,7 +182,7 @@ BakedMap merge_contents(std::span<const NamedShard> shards, std::uint32_t thread
   std::uint64_t blocks = 0;
   for (const NamedShard& shard : shards) blocks += shard.contents->blocks.size();
   if (blocks != block_count(merged.map)) refuse("shards", "do not hold as many blocks as the map has");
-  merged.fitted = described.facts.fitted;
+  merged.fitted = sum_up_views(described.facts);
   merged.map.metadata = std::move(described.description);
   BlockMerge merge(described.facts, merged.map, limits);
   for (const NamedShard& shard : shards) merge.take(shard, threads);

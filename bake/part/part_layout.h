@@ -62,7 +62,8 @@ struct TileTotals {
 };
 static_assert(sizeof(TileTotals) == 72);
 
-/// The payload of a BAKE record begins so; samples, instruction set and the caller's text follow.
+/// The payload of a BAKE record begins so; other views', samples, instruction set and the caller's text
+/// follow.
 struct FactsRecord {
   std::array<double, 9> rotation{};
   std::array<double, 3> translation{};
@@ -73,7 +74,8 @@ struct FactsRecord {
   std::uint32_t projection = 0, width = 0, height = 0, mip_levels = 0, mip_levels_asked = 0;
   std::uint32_t depth_bits = 0, value_bits = 0, channels = 0, value_max = 0;
   std::uint32_t map_width = 0, map_height = 0, walk = 0, receivers = 0, flags = 0;
-  std::uint32_t samples = 0, isa_bytes = 0, description_bytes = 0, reserved = 0;
+  std::uint32_t samples = 0, isa_bytes = 0, description_bytes = 0;
+  std::uint32_t more_views = 0;  ///< so many FactsRecords follow this, whose own last four are 0
 };
 static_assert(sizeof(FactsRecord) == 264);
 

@@ -86,10 +86,11 @@ void append_record(std::uint32_t type, std::span<const std::byte> payload, std::
 }
 
 void append_block(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base,
-                  std::vector<std::byte>& bytes) {
+                  std::uint32_t first_block, std::vector<std::byte>& bytes) {
   std::vector<std::byte> payload;
-  append_value(payload, BlockHeaderRecord{block.index, static_cast<std::uint32_t>(block.levels.size()),
-                                          block.counts.events, block.counts.undarkened_texels, block.inputs});
+  append_value(payload,
+               BlockHeaderRecord{first_block + block.index, static_cast<std::uint32_t>(block.levels.size()),
+                                 block.counts.events, block.counts.undarkened_texels, block.inputs});
   append_level(base, payload);
   for (std::uint32_t l = 1; l < block.levels.size(); ++l) {
     const std::uint32_t width = block.width >> l, height = block.height >> l;
@@ -132,10 +133,11 @@ std::optional<FittedBlock> read_block(const PartShape& shape, std::span<const st
   const auto header = reader.value<BlockHeaderRecord>();
   const std::uint32_t across = (shape.width + kBlockSize - 1) / kBlockSize,
                       up = (shape.height + kBlockSize - 1) / kBlockSize;
-  if (!reader.ok() || header.index >= across * up || header.levels != shape.mip_levels + 1) return {};
+  const bool is_of_view = header.index >= shape.first_block && header.index - shape.first_block < across * up;
+  if (!reader.ok() || !is_of_view || header.levels != shape.mip_levels + 1) return {};
   FittedBlock block;
-  block.index = header.index;
-  const auto extent = block_extent(shape.width, shape.height, header.index % across, header.index / across);
+  block.index = header.index - shape.first_block;
+  const auto extent = block_extent(shape.width, shape.height, block.index % across, block.index / across);
   block.width = extent[0];
   block.height = extent[1];
   block.counts.events = header.events;

@@ -29,6 +29,7 @@ struct PartShape {
   std::uint32_t width = 0, height = 0;  ///< texels of level 0
   std::uint32_t mip_levels = 0;         ///< above 0
   bool has_domain_ends = false;
+  std::uint32_t first_block = 0;  ///< of the view, counted through all views of the map
 };
 
 struct PartRecord {
@@ -49,9 +50,9 @@ struct PartScan {
 void append_part_header(const PartHeader& header, std::vector<std::byte>& bytes);
 void append_record(std::uint32_t type, std::span<const std::byte> payload, std::vector<std::byte>& bytes);
 
-/// A BLCK record; `base` is level 0 of `block`, encoded.
+/// A BLCK record; `base` is level 0 of `block`, encoded. `first_block`: as PartShape has it.
 void append_block(const VertexCoding& coding, const FittedBlock& block, const EncodedBlock& base,
-                  std::vector<std::byte>& bytes);
+                  std::uint32_t first_block, std::vector<std::byte>& bytes);
 /// A TILE record.
 void append_tile(const TileStatistics& tile, std::vector<std::byte>& bytes);
 

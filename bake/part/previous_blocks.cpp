@@ -49,7 +49,7 @@ class PreviousMap {
   static std::optional<PreviousMap> open(const BakeJob& job) {
     auto reader = BlockReader::open(job.options.previous);
     if (!reader || reader->frame().block_keys.empty()) return std::nullopt;
-    const PenumbraMap &theirs = reader->frame(), ours = make_map_frame(gather_facts(job));
+    const PenumbraMap &theirs = reader->frame(), ours = make_map_frame({gather_facts(job)});
     if (theirs.coding != ours.coding || theirs.images != ours.images) return std::nullopt;
     return PreviousMap(std::move(*reader));
   }

@@ -132,16 +132,14 @@ class LightNode {
       fields.refuse("type", "must be directional, point or spot");
     const char* key = distant ? "angle" : "radius";
     const std::optional<JsonFields> extras = extras_with(fields, key);
-    if (type == "point") {
-      left_out = "a point light: not supported yet";
-      return std::nullopt;
-    }
     if (!extras) {
       left_out = fmt::format("a {} light without {} in its extras", type, key);
       return std::nullopt;
     }
     if (distant) return make(DistantLight{read_distant_angle(*extras)});
-    Light light = make(DiskLight{extras->not_negative("radius")});
+    const double radius = extras->not_negative("radius");
+    if (type == "point") return make(SphereLight{radius});
+    Light light = make(DiskLight{radius});
     light.window = cone_window(fields);
     return light;
   }

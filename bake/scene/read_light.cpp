@@ -40,17 +40,29 @@ LightShape read_shape(const JsonFields& fields) {
         {"name", "type", "direction", "up", "angle", "window", "near", "far", "resolution", "samples"});
     return DistantLight{fields.has("angle") ? read_distant_angle(fields) : DistantLight{}.angle};
   }
-  if (type == "sphere" || type == "mesh") {
-    fields.refuse("type", "lights of type " + type + ": not supported yet");
+  if (type == "sphere") {
+    fields.allow_only({"name", "type", "position", "direction", "up", "radius", "near", "far", "faces",
+                       "resolution", "samples"});
+    return SphereLight{fields.not_negative("radius")};
   }
-  fields.refuse("type", "must be rect, disk or distant");
+  if (type == "mesh") fields.refuse("type", "lights of type mesh: not supported yet");
+  fields.refuse("type", "must be rect, disk, sphere or distant");
 }
 
-void refuse_unsupported(const JsonFields& fields) {
+/// Views of the light's map; several leave no choice of window.
+void read_faces(const JsonFields& fields, Light& light) {
+  light.faces = is_sphere(light) ? 6 : 1;
   const json* faces = fields.find("faces");
-  if (faces == nullptr || *faces == 1) return;
-  if (*faces == 5 || *faces == 6) fields.refuse("faces", "5 or 6 faces: not supported yet");
-  fields.refuse("faces", "must be 1, 5 or 6");
+  if (faces == nullptr) return;
+  if (is_sphere(light)) {
+    if (*faces != 6) fields.refuse("faces", "must be 6 for sphere lights");
+    return;
+  }
+  if (*faces != 1 && *faces != 5) fields.refuse("faces", "must be 1 or 5 for rect and disk lights");
+  light.faces = *faces == 5 ? 5 : 1;
+  for (const char* key : {"window", "fov"})
+    if (light.faces > 1 && fields.has(key))
+      fields.refuse(key, "must not be given together with several faces");
 }
 
 std::string read_name(const JsonFields& fields, const std::string& default_name) {
@@ -109,7 +121,8 @@ std::array<std::uint32_t, 2> read_resolution(const JsonFields& fields) {
 /// Position and axes. A distant light is placed when the geometry is known.
 void read_frame(const JsonFields& fields, Light& light) {
   if (!is_distant(light)) light.position = fields.vector("position");
-  light.direction = fields.vector("direction");
+  // A sphere looks the same from all sides: its axes are those of its views.
+  if (!is_sphere(light) || fields.has("direction")) light.direction = fields.vector("direction");
   if (fields.has("up")) light.up = fields.vector("up");
   switch (frame_fault(light)) {
     case FrameFault::zero_direction:
@@ -126,7 +139,7 @@ Light read_unplaced_light(const JsonFields& fields, const std::string& default_n
                           const EmissionReader& read_emission) {
   Light light;
   light.shape = read_shape(fields);
-  refuse_unsupported(fields);
+  read_faces(fields, light);
   light.name = read_name(fields, default_name);
   light.window = read_view_window(fields);
   read_depths(fields, light);

@@ -11,8 +11,8 @@
 
 namespace pdsm {
 
-/// What is known of a bake before its first tile: with the blocks and their counts, all that there is to say
-/// about the result. The same for all shards of a bake.
+/// What is known of one view's bake before its first tile: with the blocks and their counts, all that there
+/// is to say about the result. The same for all shards of a bake.
 struct BakeFacts {
   FittedView fitted;
   VertexCoding coding;
@@ -34,14 +34,24 @@ struct BakeFacts {
   std::uint64_t dropped_triangles = 0;
 };
 
+/// The same of all views of a map; light samples are those of the first.
+using MapFacts = std::vector<BakeFacts>;
+
 [[nodiscard]] BakeFacts gather_facts(const BakeJob& job);
 
 /// The map without its blocks and metadata.
-[[nodiscard]] PenumbraMap make_map_frame(const BakeFacts& facts);
+[[nodiscard]] PenumbraMap make_map_frame(const MapFacts& facts);
+
+/// The fitted view that is told of a map: the first, with nothing in it only where that holds of all.
+[[nodiscard]] FittedView sum_up_views(const std::vector<FittedView>& fitted);
+[[nodiscard]] FittedView sum_up_views(const MapFacts& facts);
 
 /// All of a report but for seconds, tiles and memory. `taken` is of the blocks that `done` counts.
-[[nodiscard]] BakeReport make_report(const BakeFacts& facts, const BlockCounts& done,
+[[nodiscard]] BakeReport make_report(const MapFacts& facts, const BlockCounts& done,
                                      const TileStatistics& taken);
+
+/// Of casters before the near of some of several views.
+[[nodiscard]] std::vector<std::string> view_warnings(const std::vector<FittedView>& fitted);
 
 /// Of geometry that a bake left out.
 [[nodiscard]] std::vector<std::string> geometry_warnings(std::uint64_t dropped_triangles);

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "events/transmittance_events.h"
+#include "light/fit_face.h"
 #include "pdsm/format/error.h"
 #include "tile/share_rect.h"
 #include "trace/map_rays.h"
@@ -65,9 +66,29 @@ BakeOptions fill_in(BakeOptions o) {
   return o;
 }
 
-/// Levels above 0 that are made: as many as are asked for and as the smaller side can be halved.
-std::uint32_t count_mip_levels(const BakeOptions& o) {
-  return std::min(o.mip_levels, static_cast<std::uint32_t>(std::bit_width(std::min(o.width, o.height)) - 1));
+/// Levels above 0 that are made: as many as are asked for and as the smallest side of all views can be
+/// halved.
+std::uint32_t count_mip_levels(const Light& light, const BakeOptions& o) {
+  const LightFace last = light_face(light, view_count(light) - 1, o.width, o.height);
+  const std::uint32_t side = std::min(last.width, last.height);
+  return std::min(o.mip_levels, static_cast<std::uint32_t>(std::bit_width(side) - 1));
+}
+
+/// The grid of a view whose texels have as many map texels as the first view's.
+MapGrid make_face_grid(const LightFace& face, const View& view, const BakeOptions& o) {
+  const auto map_texels = [](std::uint32_t of_map, std::uint32_t of_first, std::uint32_t of_view) {
+    return static_cast<std::uint32_t>(std::lround(static_cast<double>(of_map) / of_first * of_view));
+  };
+  MapGrid grid = make_map_grid(view, map_texels(o.map_width, o.width, view.width),
+                               map_texels(o.map_height, o.height, view.height));
+  grid.is_one_of_several = face.is_one_of_several;
+  return grid;
+}
+
+std::vector<LightSample> turn_samples(const LightFace& face, std::vector<LightSample> samples) {
+  if (face.is_one_of_several)
+    for (LightSample& sample : samples) sample.position = face.from_light(sample.position);
+  return samples;
 }
 
 std::uint64_t resident_bytes() {
@@ -90,12 +111,13 @@ void check_samples(const std::vector<LightSample>& samples, const View& view) {
 
 /// Depth before which no caster is in the way. A fitted near is the nearest caster's in the hull, unless it
 /// was raised to its floor; before any other near, casters still count.
-double caster_clip_depth(const FittedView& fitted, bool own_samples) {
+double caster_clip_depth(const FittedView& fitted, const LightFace& face, bool own_samples) {
   const bool distant = fitted.view.projection == Projection::orthographic;
   const double near = fitted.view.near_depth, floor = distant ? 0 : kNearFloor * fitted.view.far_depth;
   const double emitter = distant ? 0 : kEmitterShare * near;
   // Samples that the caller brings may lie outside the light's shape, and so outside the hull.
   if (own_samples) return emitter;
+  if (face.reach[2] > 0) return -face.reach[2];
   return fitted.near_fitted && near > floor * (1 + kClipSlack) ? near * (1 - kClipSlack) : emitter;
 }
 
@@ -106,33 +128,41 @@ double default_bias(const MapGrid& grid) {
 
 }  // namespace
 
-BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted)
-    : has_emission(light.emission != nullptr),
+BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted, std::uint32_t index)
+    : view(index),
+      has_emission(light.emission != nullptr),
       options(fill_in(wanted)),
-      fitted(fit_view(scene, light, options.width, options.height)),
-      samples(options.light_samples.empty()
-                  ? make_light_samples(light, options.samples, options.points, options.seed)
-                  : options.light_samples),
-      grid(make_map_grid(fitted.view, options.map_width, options.map_height)) {
+      face(light_face(light, index, options.width, options.height)),
+      fitted(fit_face(scene, face)),
+      light_samples(options.light_samples.empty()
+                        ? make_light_samples(light, options.samples, options.points, options.seed)
+                        : options.light_samples),
+      samples(turn_samples(face, light_samples)),
+      grid(make_face_grid(face, fitted.view, options)) {
   check_samples(samples, fitted.view);
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
-  mip_levels = count_mip_levels(options);
+  mip_levels = count_mip_levels(light, options);
   const double start = omp_get_wtime();
   light_space = to_light_space(scene, fitted.view.world_to_view);
   // Samples that the caller brings may lie outside the light's shape, and see more.
-  if (options.light_samples.empty()) keep_within(light_space, map_reach(light, grid));
+  if (options.light_samples.empty()) keep_within(light_space, map_reach(face, grid));
   seconds_bvh = omp_get_wtime() - start;
   const bool translucent = light_space.has_translucency();
   require(!translucent || !is_lossless(options.epsilon), "--epsilon",
           "too small for translucent casters, whose values are no counts: must be 3.1e-5 or more");
-  rules = make_fit_rules(fitted.view, options.samples, options.epsilon,
-                         options.depth_tolerance.value_or(kToleranceShare * bias),
-                         translucent ? transmittance_unit(options.samples) : 1);
+  make_rules(16);
+}
+
+void BakeSetup::make_rules(std::uint32_t least_depth_bits) {
+  rules = make_fit_rules(
+      fitted.view, options.samples, options.epsilon, options.depth_tolerance.value_or(kToleranceShare * bias),
+      light_space.has_translucency() ? transmittance_unit(options.samples) : 1, least_depth_bits);
   if (options.unrounded_values) write_unrounded(rules);
 }
 
-BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share)
-    : BakeSetup(scene, light, wanted) {
+BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share,
+                 std::uint32_t index)
+    : BakeSetup(scene, light, wanted, index) {
   options.isa = choose_isa(options.isa);
   plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels,
                      share_rect(grid, share)});
@@ -158,10 +188,11 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   options.threads,
                   !has_shadows(),
                   bound_samples(samples),
-                  caster_clip_depth(fitted, !options.light_samples.empty()),
+                  caster_clip_depth(fitted, face, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth,
-                  casters,
-                  {}};
+                  casters};
+  input.finds_cells = finds_cells();
+  if (!shift_law() && finds_cells()) input.light_hull = map_reach(face, grid);
   for (std::uint32_t level = 1; level <= mip_levels; ++level)
     input.level_rules.push_back(make_level_rules(rules, level));
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
@@ -171,6 +202,11 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
 bool BakeJob::has_shadows() const {
   // Samples that the caller brings may see casters that the light's shape does not.
   return !fitted.nothing_casts || !options.light_samples.empty();
+}
+
+bool BakeJob::finds_cells() const {
+  // Samples out of the plane that the caller brings may see casters from anywhere.
+  return shift_law() || options.light_samples.empty();
 }
 
 bool BakeJob::shift_law() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/light_faces.h"
 #include "pdsm/bake/bake.h"
 #include "pdsm/bake/shard.h"
 #include "tile/bake_tile.h"
@@ -13,13 +14,21 @@ namespace pdsm {
 
 /// What is baked, and from what: all that the functions depend on, but for the ISA. No ray has been traced
 /// for it.
+/// One view of a map is a setup, and a job, of its own.
 struct BakeSetup {
-  BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options);
+  BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options, std::uint32_t view = 0);
 
+  /// Makes the rules of the fit, with codes of depth of at least so many bits: all views of a map have one
+  /// coding.
+  void make_rules(std::uint32_t least_depth_bits);
+
+  std::uint32_t view = 0;     ///< of the map
   bool has_emission = false;  ///< the light has a picture
   BakeOptions options;        ///< with all defaults filled in, but for the ISA
+  LightFace face;             ///< the light as this view has it
   FittedView fitted;
-  std::vector<LightSample> samples;
+  std::vector<LightSample> light_samples;  ///< in the space of view 0
+  std::vector<LightSample> samples;        ///< the same in this view's
   MapGrid grid;
   double bias = 0;  ///< its constant part, metres
   FitRules rules;
@@ -33,7 +42,8 @@ struct BakeSetup {
 class BakeJob : public BakeSetup {
  public:
   /// The plan is of a share of the map, all else of the whole.
-  BakeJob(const Scene& scene, const Light& light, const BakeOptions& options, const Share& share = {});
+  BakeJob(const Scene& scene, const Light& light, const BakeOptions& options, const Share& share = {},
+          std::uint32_t view = 0);
 
   /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
   [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;
@@ -46,6 +56,9 @@ class BakeJob : public BakeSetup {
 
   /// Whether all samples obey the shift law (walk/ray_path.h), so that one walk serves all rays of each.
   [[nodiscard]] bool shift_law() const;
+
+  /// Whether rays that nothing can darken are left out.
+  [[nodiscard]] bool finds_cells() const;
 
   SlopeLimit slope_limit;
   TilePlan plan;

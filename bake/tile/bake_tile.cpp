@@ -71,6 +71,31 @@ void make_packets(const TileInput& input, const ShadowCells& cells, TileBlock& b
   });
 }
 
+/// The same for rays that are walked one by one.
+void make_walk_ends(const ShadowCells& cells, TileBlock& block) {
+  block.walk_ends = block.domain_ends;
+  if (cells.dark.empty()) return;
+  std::size_t texel = 0;
+  for (std::int32_t y = block.rect.y0; y < block.rect.y1; ++y) {
+    for (std::int32_t x = block.rect.x0; x < block.rect.x1; ++x, ++texel) {
+      if (!cells.may_darken((x - cells.tile.x0) / kCellSize, (y - cells.tile.y0) / kCellSize))
+        block.walk_ends[texel] = RayPacket::kUnused;
+    }
+  }
+}
+
+/// Calls visit(cell's texels) for the cells of a strip that may be darkened.
+template <typename Visitor>
+void for_each_dark_cell(const TexelRect& strip, const ShadowCells& cells, Visitor&& visit) {
+  const std::int32_t first = (strip.y0 - cells.tile.y0) / kCellSize,
+                     last = (strip.y1 - 1 - cells.tile.y0) / kCellSize;
+  for (std::int32_t y = first; y <= last; ++y) {
+    for (std::int32_t x = 0; x < cells.across; ++x) {
+      if (cells.may_darken(x, y)) visit(cells.cell_rect(x, y));
+    }
+  }
+}
+
 /// The rows of a tile that strip `n` of `count` covers, whole blocks.
 TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count) {
   const auto edge = static_cast<std::int32_t>(kBlockSize);
@@ -88,29 +113,35 @@ void trace_translucent(const TileInput& input, const LightSample& sample, const 
                                          input.rules.transmittance_unit, thread.layers, thread.slope_bias);
 }
 
-/// Traces what the rays of a strip look at in the map of one sample. By the shift law, only cells that may
-/// be darkened are looked at.
+/// Traces what the rays of a strip look at in the map of a sample out of the plane.
+void trace_general_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+                         const ShadowCells& cells, WalkThread& thread) {
+  const MapBias bias = sample_bias(input.grid, input.walk, input.shift_law, input.bias, sample);
+  thread.map.reset(general_footprint(input.grid, sample, strip), input.grid.ratio[0].fine);
+  const PacketMask* mask = nullptr;
+  if (input.finds_cells) {
+    thread.mask.reset(thread.map.rect());
+    for_each_dark_cell(strip, cells, [&](const TexelRect& rays) {
+      thread.mask.want(general_footprint(input.grid, sample, rays));
+    });
+    mask = &thread.mask;
+  }
+  thread.statistics.rays +=
+      trace_sample_map(input.scene, input.grid, sample, bias, mask, thread.map, thread.slope_bias);
+  trace_translucent(input, sample, bias, mask, thread);
+}
+
+/// Traces what the rays of a strip look at in the map of one sample: only cells that may be darkened.
 void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
                  const ShadowCells& cells, WalkThread& thread) {
+  if (!input.shift_law) return trace_general_strip(input, sample, strip, cells, thread);
   const MapBias bias = sample_bias(input.grid, input.walk, input.shift_law, input.bias, sample);
   const std::uint32_t interleave = input.grid.ratio[0].fine;
-  if (!input.shift_law) {
-    thread.map.reset(general_footprint(input.grid, sample, strip), interleave);
-    thread.statistics.rays +=
-        trace_sample_map(input.scene, input.grid, sample, bias, nullptr, thread.map, thread.slope_bias);
-    trace_translucent(input, sample, bias, nullptr, thread);
-    return;
-  }
   thread.shift.list(input.grid, sample, input.walk);
   thread.map.reset(thread.shift.footprint(strip), interleave);
   thread.mask.reset(thread.map.rect());
-  const std::int32_t first = (strip.y0 - cells.tile.y0) / kCellSize,
-                     last = (strip.y1 - 1 - cells.tile.y0) / kCellSize;
-  for (std::int32_t y = first; y <= last; ++y) {
-    for (std::int32_t x = 0; x < cells.across; ++x) {
-      if (cells.may_darken(x, y)) thread.shift.want_packets(cells.cell_rect(x, y), thread.mask);
-    }
-  }
+  for_each_dark_cell(strip, cells,
+                     [&](const TexelRect& rays) { thread.shift.want_packets(rays, thread.mask); });
   thread.statistics.rays +=
       input.casters.empty()
           ? trace_sample_map(input.scene, input.grid, sample, bias, &thread.mask, thread.map,
@@ -128,7 +159,7 @@ void walk_block(const TileInput& input, const LightSample& sample, const Map& ma
   if (input.shift_law)
     thread.shift.walk(map, block.packets, log);
   else
-    walk_general(input.grid, sample, input.walk, map, block.rect, block.domain_ends, thread.steps, log);
+    walk_general(input.grid, sample, input.walk, map, block.rect, block.walk_ends, thread.steps, log);
 }
 
 /// Walks all rays of a strip through the map of one sample.
@@ -199,16 +230,28 @@ class TileJob {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       failure_.guard([&] { prepare_block(input_, blocks_[b]); });
     failure_.rethrow();
-    if (input_.nothing_casts || !input_.shift_law) return;
-    const ShadowCellInput cell_input{input_.scene.geometry(), input_.grid,           input_.light_bounds,
-                                     input_.clip_depth,       input_.depth_rounding, input_.casters,
-                                     input_.threads};
+    if (input_.nothing_casts) return;
+    if (input_.finds_cells) find_cells();
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      failure_.guard([&] {
+        if (input_.shift_law)
+          make_packets(input_, cells_, blocks_[b]);
+        else
+          make_walk_ends(cells_, blocks_[b]);
+      });
+    }
+    failure_.rethrow();
+  }
+
+  void find_cells() {
+    const ShadowCellInput cell_input{
+        input_.scene.geometry(), input_.grid,
+        input_.light_bounds,     input_.clip_depth,
+        input_.depth_rounding,   input_.casters,
+        input_.threads,          input_.light_hull ? &*input_.light_hull : nullptr};
     cells_ = find_shadow_cells(cell_input, tile_,
                                [this](std::int32_t i, std::int32_t j) { return domain_end(i, j); });
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(input_.threads))
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-      failure_.guard([&] { make_packets(input_, cells_, blocks_[b]); });
-    failure_.rethrow();
   }
 
   [[nodiscard]] float domain_end(std::int32_t i, std::int32_t j) const {

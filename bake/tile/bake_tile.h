@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "fit/fit_rules.h"
+#include "light/convex_clip.h"
 #include "pdsm/bake/bake.h"
 #include "tile/sample_bias.h"
 #include "tile/shadow_cells.h"
@@ -33,6 +35,9 @@ struct TileInput {
   double clip_depth = 0;           ///< casters before this depth are out of the hull of light and window
   double depth_rounding = 0;       ///< metres: what traced depths may be off
   const CasterTriangles& casters;  ///< that maps are made from; none: they are traced
+  bool finds_cells = true;         ///< rays that nothing can darken are left out (tile/shadow_cells.h)
+  /// Of a view whose samples lie out of its plane: what can block. None: the shift law holds.
+  std::optional<ConvexRegion> light_hull = {};
   std::vector<FitRules> level_rules = {};     ///< of mip levels 1, 2, ...; none where none are made
   const BlockInputs* block_inputs = nullptr;  ///< for the keys of blocks; null: they get none
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdsm/bake/map_key.h"
 
-#include "tile/bake_facts.h"
+#include <utility>
+
 #include "tile/setup_key.h"
+#include "tile/view_jobs.h"
 #include "trace/embree_scene.h"
 
 namespace pdsm {
@@ -12,9 +14,12 @@ const char* const kToolVersion = PDSM_VERSION;
 MapKey map_key(const Scene& scene, const Light& light, const BakeOptions& options,
                const std::string& version) {
   const std::string isa = options.isa.empty() ? choose_isa("") : options.isa;
-  const BakeSetup setup(scene, light, options);
-  return {setup_key(setup, light, isa, version), setup.fitted,
-          geometry_warnings(setup.light_space.dropped_triangles)};
+  const auto views = make_views<BakeSetup>(scene, light, options);
+  std::vector<FittedView> fitted;
+  for (const auto& view : views) fitted.push_back(view->fitted);
+  std::vector<std::string> warnings = geometry_warnings(views.front()->light_space.dropped_triangles);
+  for (std::string& warning : view_warnings(fitted)) warnings.push_back(std::move(warning));
+  return {views_key(views, light, isa, version), sum_up_views(fitted), std::move(warnings)};
 }
 
 }  // namespace pdsm

@@ -46,9 +46,30 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
   return counted(4 * words * pieces, "bytes of vertices");
 }
 
+std::uint64_t count_texels(const MapFacts& views) {
+  std::uint64_t texels = 0;
+  for (const BakeFacts& facts : views)
+    texels += std::uint64_t{facts.fitted.view.width} * facts.fitted.view.height;
+  return texels;
+}
+
+/// What holds of a map of these views: what is modelled in one is modelled.
+BakeFacts sum_up(const MapFacts& views) {
+  BakeFacts sum = views.front();
+  for (const BakeFacts& facts : views) {
+    sum.has_shadows = sum.has_shadows || facts.has_shadows;
+    sum.is_projected = sum.is_projected && (facts.is_projected || !facts.has_shadows);
+    sum.shift_law = sum.shift_law && facts.shift_law;
+    sum.has_cutouts = sum.has_cutouts || facts.has_cutouts;
+    sum.has_translucency = sum.has_translucency || facts.has_translucency;
+    sum.slope_limit_from = std::min(sum.slope_limit_from, facts.slope_limit_from);
+  }
+  return sum;
+}
+
 /// How visibility was found. Numbers are of the map, not of the tiles: the file must not depend on those.
-void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureList& list) {
-  const std::uint64_t texels = std::uint64_t{facts.fitted.view.width} * facts.fitted.view.height;
+void list_visibility(const BakeFacts& facts, std::uint64_t texels, bool is_one_of_several,
+                     const BlockCounts& done, FeatureList& list) {
   const std::uint64_t samples = facts.samples.size();
   const bool casts = facts.has_shadows, parallel = facts.fitted.view.projection == Projection::orthographic;
   list.either(casts, "shadow maps", "casters lie between light and window",
@@ -65,7 +86,7 @@ void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureLis
     list.modelled("cutouts", facts.is_projected
                                  ? "casters have holes: they are traced, and all others projected"
                                  : "casters have holes");
-  if (casts && facts.shift_law)
+  if (casts && (facts.shift_law || is_one_of_several))
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));
   if (casts)
@@ -83,7 +104,11 @@ void list_visibility(const BakeFacts& facts, const BlockCounts& done, FeatureLis
     list.left_out("transmittance", "all casters are opaque: events are counted in integers",
                   counted(samples, "transmittance functions a map texel"));
   list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
-  list.left_out("faces", "one view holds the window", counted(5 * texels, "texels"));
+}
+
+void list_faces(const MapFacts& views, FeatureList& list) {
+  list.either(views.size() > 1, "faces", "the light shines to all sides: one view is not enough",
+              "one view holds the window", counted(5 * count_texels(views), "texels"));
 }
 
 /// Where functions are exact.
@@ -128,9 +153,11 @@ void list_coding(const BakeFacts& facts, const BlockCounts& done, FeatureList& l
 
 }  // namespace
 
-std::vector<ModelledFeature> list_modelled_features(const BakeFacts& facts, const BlockCounts& done) {
+std::vector<ModelledFeature> list_modelled_features(const MapFacts& views, const BlockCounts& done) {
+  const BakeFacts facts = sum_up(views);
   FeatureList list;
-  list_visibility(facts, done, list);
+  list_visibility(facts, count_texels(views), views.size() > 1, done, list);
+  list_faces(views, list);
   list_domain(facts, list);
   list_levels(facts, list);
   list_coding(facts, done, list);

@@ -14,12 +14,16 @@ constexpr std::uint32_t kBytesRevision = 2;
 /// What marks that the light has a picture: no light without one runs into the same bytes.
 constexpr std::uint64_t kPictureFollows = 0x65727574636970U;
 
+/// What marks that the light has several views; their number is added.
+constexpr std::uint64_t kFacesFollow = 0x7365636166647000U;
+
 void add_light(KeyHash& hash, const Light& light) {
   hash.add(light.name);
   hash.add(light.shape.index());
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) hash.add(sun->angle);
   for (const double extent : half_extents(light)) hash.add(extent);
   for (int axis = 0; axis < 3; ++axis) hash.add(light.position[axis]);
+  if (view_count(light) > 1) hash.add(kFacesFollow + view_count(light));
   // What a picture holds shows in the samples; that there is one, in what is told of the map.
   if (light.emission) hash.add(kPictureFollows);
 }
@@ -116,14 +120,22 @@ void add_setup(KeyHash& hash, const BakeSetup& setup, const Light& light, const 
   add_light(hash, light);
   add_view(hash, setup.fitted);
   add_options(hash, setup);
-  add_samples(hash, setup.samples);
+  add_samples(hash, setup.light_samples);
 }
 
 std::string setup_key(const BakeSetup& setup, const Light& light, const std::string& isa,
                       const std::string& version) {
+  const BakeSetup* views[] = {&setup};
+  return setup_key(views, light, isa, version);
+}
+
+std::string setup_key(std::span<const BakeSetup* const> views, const Light& light, const std::string& isa,
+                      const std::string& version) {
   KeyHash hash;
-  add_setup(hash, setup, light, isa, version);
-  add_scene(hash, setup.light_space);
+  for (const BakeSetup* setup : views) {
+    add_setup(hash, *setup, light, isa, version);
+    add_scene(hash, setup->light_space);
+  }
   const auto [high, low] = hash.digest();
   return fmt::format("{:016x}{:016x}", high, low);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace pdsm {
 namespace {
@@ -16,6 +17,8 @@ constexpr double kTexelReach = 1.01;
 constexpr std::int64_t kManyCells = 8;
 /// Triangles that follow each other in a mesh and are asked about together first.
 constexpr std::size_t kRun = 64;
+/// Casters count as behind all samples from so many times the farthest sample's depth on.
+constexpr double kBehindSamples = 1.01;
 
 /// A triangle in front of clip_depth: 3 or 4 corners, or none.
 struct ClippedTriangle {
@@ -140,6 +143,7 @@ class CellMarker {
 
   [[nodiscard]] bool changes_nothing(const LightSpaceMesh& mesh, std::span<const glm::uvec3> run,
                                      const std::vector<std::uint8_t>& dark) const {
+    if (input_.light_hull != nullptr) return false;
     RunBox box;
     for (const glm::uvec3& t : run) box.include(mesh, t);
     std::array<glm::dvec3, 8> corners;
@@ -166,11 +170,28 @@ class CellMarker {
   /// returns false; `are_many`: so many are in range that asking for each may pay.
   template <typename Visitor>
   void for_each_cell_near(const LightSpaceMesh& mesh, const glm::uvec3& t, Visitor&& visit) const {
-    const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
-    if (triangle.count == 0) return;
+    if (input_.light_hull != nullptr) {
+      const SmallPolygon part = part_in_hull(mesh, t);
+      visit_cells(part.corners(), std::forward<Visitor>(visit));
+    } else {
+      const ClippedTriangle triangle = clip_front(mesh, t, input_.clip_depth);
+      visit_cells(triangle.corners(), std::forward<Visitor>(visit));
+    }
+  }
+
+  /// What of a triangle lies in the hull of light and window.
+  [[nodiscard]] SmallPolygon part_in_hull(const LightSpaceMesh& mesh, const glm::uvec3& t) const {
+    const ConvexRegion& hull = *input_.light_hull;
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    return clip({a, b, c}, hull, hull.outside_bits(a) | hull.outside_bits(b) | hull.outside_bits(c));
+  }
+
+  template <typename Visitor>
+  void visit_cells(std::span<const glm::dvec3> corners, Visitor&& visit) const {
+    if (corners.empty()) return;
     double first_depth = std::numeric_limits<double>::infinity();
-    for (int n = 0; n < triangle.count; ++n) first_depth = std::min(first_depth, triangle.corner[n].z);
-    const CellRange range = find_range(triangle.corners(), first_depth);
+    for (const glm::dvec3& corner : corners) first_depth = std::min(first_depth, corner.z);
+    const CellRange range = find_range(corners, first_depth);
     // Not those of the tile, for a verdict must not depend on it.
     const bool are_many = range.of_map >= kManyCells;
     for (std::int64_t y = range.y0; y < range.y1; ++y) {
@@ -206,6 +227,8 @@ class CellMarker {
 
   /// Cells that the hull of `corners` may darken.
   [[nodiscard]] CellRange find_range(std::span<const glm::dvec3> corners, double first_depth) const {
+    if (input_.light_hull != nullptr && !(first_depth > kBehindSamples * input_.light.max_z))
+      return all_cells();
     const Spread spread = spread_from(first_depth);
     std::int64_t low[2], high[2], of_map = 1;
     const std::int32_t start[2] = {cells_.tile.x0, cells_.tile.y0}, cells[2] = {cells_.across, cells_.up};
@@ -215,6 +238,7 @@ class CellMarker {
         const double slope = corner[a] / input_.grid.spread_at(corner.z);
         least = std::min(least, slope);
         greatest = std::max(greatest, slope);
+        if (input_.light_hull != nullptr) include_farthest(a, corner, least, greatest);
       }
       const auto axis = static_cast<std::size_t>(a);
       const MapGrid& grid = input_.grid;
@@ -232,6 +256,25 @@ class CellMarker {
     return {low[0], low[1], high[0], high[1], of_map};
   }
 
+  [[nodiscard]] CellRange all_cells() const {
+    const auto along = [this](std::size_t a) { return (input_.grid.texels[a] + kCellSize - 1) / kCellSize; };
+    return {0, 0, cells_.across, cells_.up, std::int64_t{along(0)} * along(1)};
+  }
+
+  /// Slopes along `axis` at which the shadows of a caster point end at far, of samples out of the plane.
+  void include_farthest(int axis, const glm::dvec3& corner, double& least, double& greatest) const {
+    const auto a = static_cast<std::size_t>(axis);
+    const LightBounds& light = input_.light;
+    const double far = input_.grid.far_depth;
+    for (const double s : {light.min[a], light.max[a]}) {
+      for (const double s_z : {light.min_z, light.max_z}) {
+        const double slope = (s + (corner[axis] - s) * (far - s_z) / (corner.z - s_z)) / far;
+        least = std::min(least, slope);
+        greatest = std::max(greatest, slope);
+      }
+    }
+  }
+
   /// How far beside a caster point its shadow falls on rays.
   struct Spread {
     std::array<double, 2> least{}, greatest{};
@@ -241,6 +284,7 @@ class CellMarker {
     const MapGrid& grid = input_.grid;
     const LightBounds& light = input_.light;
     Spread spread;
+    if (input_.light_hull != nullptr) return spread;
     for (std::size_t a = 0; a < 2; ++a) {
       if (grid.perspective()) {
         const double reach = std::max(0.0, 1 / first_depth - 1 / grid.far_depth);
@@ -277,7 +321,7 @@ class CellMarker {
       for (const double light_y : {input_.light.min[1], input_.light.max[1]}) {
         const double across = normal.x * light_x + normal.y * light_y;
         // A distant light's rays (x, y, 1) have to come from the front.
-        if (parallel ? across + normal.z > 0 : across < offset) return false;
+        if (parallel ? across + normal.z > 0 : across + least_along_z(normal.z) < offset) return false;
       }
     }
     return for_each_ray(x, y, [&](std::int32_t i, std::int32_t j) {
@@ -287,6 +331,11 @@ class CellMarker {
       const double end = static_cast<double>(domain_end_(i, j)) - input_.depth_rounding;
       return (rate >= 0 && start >= offset) || start + end * rate >= offset;
     });
+  }
+
+  /// The least of z times `normal_z` over all samples.
+  [[nodiscard]] double least_along_z(double normal_z) const {
+    return std::min(normal_z * input_.light.min_z, normal_z * input_.light.max_z);
   }
 
   const ShadowCellInput& input_;

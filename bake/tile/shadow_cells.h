@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "light/convex_clip.h"
 #include "pdsm/format/penumbra_map.h"
 #include "trace/caster_triangles.h"
 #include "trace/light_bounds.h"
@@ -21,8 +22,12 @@
 ///   u in  Q_xy / t - [s_min, s_max] (1/t - 1/e)
 /// widened by what a map texel spans. Under a distant light, of directions (d, 1), these are the rays at
 ///   u in  Q_xy + [d_min, d_max] (e - t)
-/// A triangle's bounds follow from its vertices. Besides, a triangle
-/// can't darken a ray that ends before its plane is crossed, if the whole light is on that side too.
+/// A triangle's bounds follow from its vertices. Of samples out of the plane, P = Q + m (Q - s) has the slope
+///   u = (Q_xy + m (Q_xy - s_xy)) / (t + m (t - s_z)),  m >= 0
+/// which is monotone in m and linear fractional in Q, s_xy and s_z: over a triangle behind all samples its
+/// bounds are those of its corners at m = 0 and at far, seen from the corners of the samples' box. What of a
+/// triangle in the hull of light and window lies beside or before a sample may darken anything. Besides, a
+/// triangle can't darken a ray that ends before its plane is crossed, if the whole light is on that side too.
 namespace pdsm {
 
 /// Edge of a cell in texels: a divisor of kBlockSize.
@@ -54,6 +59,8 @@ struct ShadowCellInput {
   double depth_rounding = 0;  ///< metres: what a domain end may be off its surface
   const CasterTriangles& casters;
   std::uint32_t threads = 1;
+  const ConvexRegion* light_hull =
+      nullptr;  ///< where samples lie out of the plane; null: the shift law holds
 };
 
 /// Domain end of a texel of the map.

@@ -17,7 +17,8 @@ struct TileBlock {
   TexelRect rect;           ///< texels of the map
   std::uint32_t index = 0;  ///< in the map
   std::vector<float> domain_ends;
-  std::vector<RayPacket> packets;            ///< by the shift law only
+  std::vector<RayPacket> packets;  ///< by the shift law only
+  std::vector<float> walk_ends;    ///< else: domain ends, before near where nothing can darken the ray
   std::vector<std::vector<CodeBand>> bands;  ///< by texel; with Receivers::surfaces only
   std::array<std::uint64_t, 2> inputs{};     ///< BlockKey::inputs
 };

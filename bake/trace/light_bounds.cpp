@@ -13,6 +13,8 @@ LightBounds bound_samples(std::span<const LightSample> samples) {
       bounds.min[a] = std::min(bounds.min[a], sample.position[a]);
       bounds.max[a] = std::max(bounds.max[a], sample.position[a]);
     }
+    bounds.min_z = std::min(bounds.min_z, sample.position[2]);
+    bounds.max_z = std::max(bounds.max_z, sample.position[2]);
   }
   return bounds;
 }

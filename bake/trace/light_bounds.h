@@ -8,10 +8,11 @@
 
 namespace pdsm {
 
-/// Bounds of the light samples in the light's plane (of a distant light, of their directions) and of its
-/// centre.
+/// Bounds of the light samples along view x and y (of a distant light, of their directions) and of its
+/// centre; and along z, which are 0 by the shift law.
 struct LightBounds {
   std::array<double, 2> min{}, max{};
+  double min_z = 0, max_z = 0;
 };
 [[nodiscard]] LightBounds bound_samples(std::span<const LightSample> samples);
 

@@ -7,6 +7,7 @@
 namespace pdsm {
 
 double first_caster_depth(const MapGrid& grid, const LightSample& sample) {
+  if (grid.is_one_of_several && sample.position[2] != 0) return kEmitterShare * grid.near_depth;
   return grid.perspective() ? std::max(kEmitterShare * grid.near_depth - sample.position[2], 0.0) : 0;
 }
 

@@ -46,7 +46,7 @@ void keep_within(LightSpaceMesh& mesh, const ConvexRegion& region) {
 
 }  // namespace
 
-ConvexRegion map_reach(const Light& light, const MapGrid& grid) {
+ConvexRegion map_reach(const LightFace& face, const MapGrid& grid) {
   Window window{};
   for (std::size_t a = 0; a < 2; ++a) {
     const double beside = kBesideTexels * grid.pitch[a];
@@ -54,8 +54,8 @@ ConvexRegion map_reach(const Light& light, const MapGrid& grid) {
     window[a + 2] = grid.origin[a] + grid.pitch[a] * grid.ratio[a].maps_per_texel() * grid.texels[a] + beside;
   }
   const double far = grid.far_depth * (1 + kBehindFar);
-  ConvexRegion region = LightSpread(light).hull(window, far);
-  region.add({{0, 0, 1}, 0});
+  ConvexRegion region = LightSpread(face).hull(window, far);
+  region.add({{0, 0, 1}, face.reach[2]});
   region.add({{0, 0, -1}, far});
   return region;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "light/convex_clip.h"
-#include "pdsm/bake/scene.h"
+#include "light/light_faces.h"
 #include "trace/light_space.h"
 #include "walk/map_grid.h"
 
@@ -11,9 +11,9 @@
 /// All else is left out before anything is built of the scene, so that a map can't depend on it.
 namespace pdsm {
 
-/// The hull of `light` and of the grid's window up to far, widened by what texels and traced rays reach
+/// The hull of the light and of the grid's window up to far, widened by what texels and traced rays reach
 /// beyond it.
-[[nodiscard]] ConvexRegion map_reach(const Light& light, const MapGrid& grid);
+[[nodiscard]] ConvexRegion map_reach(const LightFace& face, const MapGrid& grid);
 
 /// Leaves out the triangles that lie on the outer side of one of the region's planes as a whole, then the
 /// vertices and meshes that no triangle is left of. Order is kept.

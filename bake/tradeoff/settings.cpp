@@ -193,6 +193,8 @@ Light scaled_light(Light light, double scale) {
     rect->height *= scale;
   } else if (auto* sun = std::get_if<DistantLight>(&light.shape)) {
     sun->angle *= scale;
+  } else if (auto* sphere = std::get_if<SphereLight>(&light.shape)) {
+    sphere->radius *= scale;
   } else {
     std::get<DiskLight>(light.shape).radius *= scale;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "truth/random.h"
@@ -54,8 +55,36 @@ glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit) {
   }
   const std::array<double, 2> disk = concentric_disk(unit);
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) return cap_direction(sun->angle, disk);
-  const double radius = std::get<DiskLight>(light.shape).radius;
+  const auto* sphere = std::get_if<SphereLight>(&light.shape);
+  const double radius = sphere != nullptr ? sphere->radius : std::get<DiskLight>(light.shape).radius;
   return {disk[0] * radius, disk[1] * radius, 0};
+}
+
+glm::dvec3 visible_cap_point(double radius, const glm::dvec3& from, const std::array<double, 2>& unit) {
+  const double distance = glm::length(from);
+  const glm::dvec3 axis = -from / distance;
+  const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(axis, other)), v = glm::cross(axis, u);
+  const double sine_most = radius / distance;
+  // 1 - cos T without the difference of numbers that are nearly equal.
+  const double height = sine_most * sine_most / (1 + std::sqrt(1 - sine_most * sine_most));
+  const std::array<double, 2> disk = concentric_disk(unit);
+  const double squared = disk[0] * disk[0] + disk[1] * disk[1];
+  const double cosine = 1 - squared * height, scale = std::sqrt(height * (2 - squared * height));
+  const glm::dvec3 direction = disk[0] * scale * u + disk[1] * scale * v + cosine * axis;
+  const double across = distance * distance * squared * height * (2 - squared * height);
+  return from + (distance * cosine - std::sqrt(std::max(0.0, radius * radius - across))) * direction;
+}
+
+glm::dvec3 model_ball_point(const std::array<double, 2>& unit, const std::array<double, 2>& more) {
+  // Box and Muller, "A Note on the Generation of Random Normal Deviates", 1958.
+  const auto normal_pair = [](const std::array<double, 2>& x) {
+    const double length = std::sqrt(-2 * std::log(1 - x[0])), angle = 2 * std::numbers::pi * x[1];
+    return std::array{length * std::cos(angle), length * std::sin(angle)};
+  };
+  const auto a = normal_pair(unit), b = normal_pair(more);
+  const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + b[0] * b[0] + b[1] * b[1]);
+  return glm::dvec3(a[0], a[1], b[0]) / std::max(length, std::numeric_limits<double>::min());
 }
 
 LightSurface::LightSurface(const Light& light) : light_(light) {

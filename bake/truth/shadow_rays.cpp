@@ -85,12 +85,23 @@ struct ShadowRays::RayContext {
   }
 };
 
+namespace {
+
+std::optional<double> radius_of(const Light& light) {
+  const auto* sphere = std::get_if<SphereLight>(&light.shape);
+  return sphere == nullptr ? std::nullopt : std::optional(sphere->radius);
+}
+
+}  // namespace
+
 ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth)
     : light_(light),
       world_to_light_(light_frame(light)),
       light_to_world_(inverse(world_to_light_)),
       distant_(is_distant(light)),
-      emitter_depth_(distant_ ? -std::numeric_limits<double>::infinity() : kEmitterShare * near_depth),
+      sphere_radius_(radius_of(light)),
+      emitter_depth_(distant_ || sphere_radius_ ? -std::numeric_limits<double>::infinity()
+                                                : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
       casters_(scene, is_caster, Holes::open,
@@ -104,7 +115,24 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
   const JitteredGrid grid(samples);
+  if (sphere_radius_) {
+    const glm::dvec3 from = apply(world_to_light_, world_point);
+    const auto seen = [&](std::uint32_t n) {
+      return LightPoint{visible_cap_point(*sphere_radius_, from, grid.point(n, seed))};
+    };
+    return share_blocked(world_point, samples, seen, nullptr);
+  }
   const auto drawn = [&](std::uint32_t n) { return LightPoint{light_.point(grid.point(n, seed))}; };
+  return share_blocked(world_point, samples, drawn, nullptr);
+}
+
+double ShadowRays::model_attenuation(const glm::dvec3& world_point, std::uint32_t samples,
+                                     std::uint64_t seed) const {
+  assert(sphere_radius_);
+  const JitteredGrid grid(samples);
+  const auto drawn = [&](std::uint32_t n) {
+    return LightPoint{*sphere_radius_ * model_ball_point(grid.point(n, seed), hash_unit_pair(~seed, n))};
+  };
   return share_blocked(world_point, samples, drawn, nullptr);
 }
 
@@ -119,8 +147,11 @@ double ShadowRays::share_blocked(const glm::dvec3& world_point, std::uint32_t co
                                  const MakePoint& light_point, const CasterBias* bias) const {
   assert(count >= 1);
   Packet packet;
-  packet.depth = apply(world_to_light_, world_point).z;
-  if (!(packet.depth > std::max(emitter_depth_, 0.0))) return 0;
+  const glm::dvec3 in_light_space = apply(world_to_light_, world_point);
+  packet.depth = in_light_space.z;
+  const bool is_lit_side = sphere_radius_ ? glm::length(in_light_space) > *sphere_radius_
+                                          : packet.depth > std::max(emitter_depth_, 0.0);
+  if (!is_lit_side) return 0;
   packet.world_point = world_point;
   packet.origin = glm::vec3(world_point - casters_.centre());
   double blocked = 0;
@@ -144,7 +175,9 @@ void ShadowRays::add_ray(const LightPoint& point, Packet& packet) const {
   } else {
     packet.rise[n] = packet.depth - point.position.z;
     packet.direction[n] = glm::vec3(apply(light_to_world_, point.position) - packet.world_point);
-    packet.end[n] = static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / packet.rise[n]));
+    packet.end[n] = sphere_radius_
+                        ? 1.0F
+                        : static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / packet.rise[n]));
   }
 }
 

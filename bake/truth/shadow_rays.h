@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,15 +23,21 @@ namespace pdsm {
 class ShadowRays {
  public:
   /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never
-  /// blocks; all blocks before a distant light. Throws Error as light_frame() does, or (resource) when Embree
-  /// fails.
+  /// blocks; all blocks before a distant light, and around a sphere light up to its surface. Throws Error as
+  /// light_frame() does, or (resource) when Embree fails.
   ShadowRays(const Scene& scene, const Light& light, double near_depth);
 
   /// Share of the light of `samples` (>= 1) light points that casters keep from `world_point` (metres); 0
-  /// behind the light. Rays leave the point at 1e-4 of the distance to the light point, or to where a distant
-  /// light's space begins. A pure function of its arguments; any thread.
+  /// behind the light, and within a sphere light. Of that, what the point sees of it counts, by solid angle.
+  /// Rays leave the point at 1e-4 of the distance to the light point, or to where a distant light's space
+  /// begins. A pure function of its arguments; any thread.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                    std::uint64_t seed) const;
+
+  /// The same with the baker's model of a sphere light in place of the sphere (light_points.h), of a radius
+  /// that this light must have.
+  [[nodiscard]] double model_attenuation(const glm::dvec3& world_point, std::uint32_t samples,
+                                         std::uint64_t seed) const;
 
   /// Of many points on all threads. Point n takes the seed hash_bits(seed, n), or with `same_seed` all take
   /// `seed`. The result does not depend on the number of threads.
@@ -57,6 +64,7 @@ class ShadowRays {
   LightSurface light_;
   RigidTransform world_to_light_, light_to_world_;
   bool distant_;
+  std::optional<double> sphere_radius_;
   double emitter_depth_;  ///< light-space z up to which nothing blocks
   WorldScene casters_;
   TranslucentSurfaces translucent_;

@@ -30,13 +30,15 @@ void walk_ray(const RayPath& path, const std::vector<WalkStep>& steps, const Sam
   }
 }
 
-/// Calls visit(path, texel within the block) for each ray of `rect`, with its steps listed.
+/// Calls visit(path, texel within the block) for each ray of `rect` that ends behind near, with its steps
+/// listed.
 template <typename Visitor>
 void for_each_ray(const MapGrid& grid, const LightSample& sample, Walk walk, const TexelRect& rect,
-                  std::vector<WalkStep>& steps, Visitor&& visit) {
+                  std::span<const float> ends, std::vector<WalkStep>& steps, Visitor&& visit) {
   std::uint32_t texel = 0;
   for (std::int32_t j = rect.y0; j < rect.y1; ++j) {
     for (std::int32_t i = rect.x0; i < rect.x1; ++i, ++texel) {
+      if (!(static_cast<double>(ends[texel]) > grid.near_depth)) continue;
       const RayPath path =
           make_ray_path(grid, sample, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
       list_walk_steps(path, walk, steps);
@@ -73,7 +75,7 @@ TexelRect general_footprint(const MapGrid& grid, const LightSample& sample, cons
 void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, const SampleMap& map,
                   const TexelRect& rect, std::span<const float> domain_ends, std::vector<WalkStep>& steps,
                   EventLog& log) {
-  for_each_ray(grid, sample, walk, rect, steps, [&](const RayPath& path, std::uint32_t texel) {
+  for_each_ray(grid, sample, walk, rect, domain_ends, steps, [&](const RayPath& path, std::uint32_t texel) {
     walk_ray(path, steps, map, texel, domain_ends[texel], log);
   });
 }
@@ -81,7 +83,7 @@ void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, con
 void walk_general(const MapGrid& grid, const LightSample& sample, Walk walk, const LayeredMap& map,
                   const TexelRect& rect, std::span<const float> domain_ends, std::vector<WalkStep>& steps,
                   EventLog& log) {
-  for_each_ray(grid, sample, walk, rect, steps, [&](const RayPath& path, std::uint32_t texel) {
+  for_each_ray(grid, sample, walk, rect, domain_ends, steps, [&](const RayPath& path, std::uint32_t texel) {
     walk_layers(map, steps, path.base[0], path.base[1], texel, domain_ends[texel], log);
   });
 }

@@ -47,6 +47,8 @@ struct MapGrid {
   double near_depth = 0, far_depth = 0;
   /// F: 1/F = (1/near + 1/far) / 2, orthographic F = (near + far) / 2, halves the margins.
   double focus_depth = 0;
+  /// One view of several: samples lie behind its origin too, and all that their rays meet may block.
+  bool is_one_of_several = false;
 
   [[nodiscard]] bool perspective() const { return projection == Projection::perspective; }
 

@@ -2,6 +2,7 @@
 // Shards of a bake, which are read and merged, and with them checkpoints, whose records are the same.
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -21,8 +22,10 @@ constexpr std::uint32_t kMostTexels = 1024;
 
 /// Whether the shard's own map is small enough to be made here.
 bool is_small(const DescribedFacts& described) {
-  const View& view = described.facts.fitted.view;
-  return view.width <= kMostTexels && view.height <= kMostTexels;
+  return std::ranges::all_of(described.facts, [](const BakeFacts& facts) {
+    const View& view = facts.fitted.view;
+    return view.width <= kMostTexels && view.height <= kMostTexels;
+  });
 }
 
 void merge(const NamedShard& shard) {

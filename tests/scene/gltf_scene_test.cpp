@@ -171,8 +171,14 @@ TEST_F(GltfSceneTest, WhatHasNoSizeIsLeftOutAndTold) {
             "level.gltf: nodes[1] (Lamp): left out: a directional light without angle in its extras");
   punctual = {{"type", "spot"}, {"spot", json::object()}};
   EXPECT_EQ(warning(), "level.gltf: nodes[1] (Lamp): left out: a spot light without radius in its extras");
-  punctual = {{"type", "point"}, {"extras", {{"radius", 1}}}};
-  EXPECT_EQ(warning(), "level.gltf: nodes[1] (Lamp): left out: a point light: not supported yet");
+  punctual = {{"type", "point"}};
+  EXPECT_EQ(warning(), "level.gltf: nodes[1] (Lamp): left out: a point light without radius in its extras");
+}
+
+TEST_F(GltfSceneTest, PointLightsWithARadiusAreSpheres) {
+  extension("KHR_lights_punctual") = {{"type", "point"}, {"extras", {{"radius", 0.25}}}};
+  EXPECT_EQ(std::get<SphereLight>(light().shape).radius, 0.25);
+  EXPECT_EQ(view_count(light()), 6U);
 }
 
 TEST_F(GltfSceneTest, OwnLightsComeFirst) {

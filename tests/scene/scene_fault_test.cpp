@@ -100,8 +100,13 @@ INSTANTIATE_TEST_SUITE_P(
               "level.scene.json:lights[0].position: is missing"},
         Fault{R"({"lights": [{"type": "disk", "radius": 1, "position": [0,0,1]}]})",
               "level.scene.json:lights[0].direction: is missing"},
-        in_light(R"("type": "spot")", "type: must be rect, disk or distant"),
-        in_light(R"("type": "sphere", "radius": 0.3)", "type: lights of type sphere: not supported yet"),
+        in_light(R"("type": "spot")", "type: must be rect, disk, sphere or distant"),
+        in_light(R"("type": "sphere", "radius": 0.3, "fov": 60)", "fov: unknown key"),
+        in_light(R"("type": "sphere", "radius": -0.3)", "radius: must be a number >= 0"),
+        in_light(R"("type": "sphere", "radius": 0.3, "faces": 5)", "faces: must be 6 for sphere lights"),
+        in_light(R"("faces": 5, "fov": 60)", "fov: must not be given together with several faces"),
+        in_light(R"("faces": 5, "window": [-1, -1, 1, 1])",
+                 "window: must not be given together with several faces"),
         in_light(R"("type": "distant", "angle": 0.53)",
                  "position: unknown key; known are name, type, direction"),
         in_sun(R"("angle": -0.1)", "angle: must be a number from 0 to 90"),
@@ -127,8 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
         in_light(R"("width": 1)", "width: unknown key"),
         in_light(R"("colour": [1, 1, 1])", "colour: unknown key; known are name, type"),
         in_light(R"("emission": "e.exr")", "emission: of lights that are not rect: not supported yet"),
-        in_light(R"("faces": 5)", "faces: 5 or 6 faces: not supported yet"),
-        in_light(R"("faces": 2)", "faces: must be 1, 5 or 6")));
+        in_light(R"("faces": 6)", "faces: must be 1 or 5"),
+        in_light(R"("faces": 2)", "faces: must be 1 or 5")));
 
 INSTANTIATE_TEST_SUITE_P(
     LightFields, SceneFault,

@@ -137,7 +137,7 @@ TEST(TruthOfCutouts, ProbesLieOnWhatIsThere) {
   view.window = {-1, -1, 1, 1};
   view.near_depth = 1;
   view.far_depth = 6;
-  const SurfaceProbes probes = surface_probes(scene, view, 500, 7);
+  const SurfaceProbes probes = surface_probes(scene, {&view, 1}, 500, 7);
   ASSERT_EQ(probes.points.size(), 500U);
   for (const glm::dvec3& p : probes.points)
     EXPECT_TRUE(is_hole(kHole, (glm::dvec2(p) + 4.0) / 8.0) == false) << p.x << " " << p.y;

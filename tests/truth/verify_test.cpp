@@ -121,7 +121,7 @@ TEST(SurfaceProbes, LieOnReceiversInTheWindow) {
   Scene scene = plate_over_floor();
   const View view = uniform_map(8, {}).views[0];
   std::uint32_t on_plate = 0;
-  for (const glm::dvec3& p : surface_probes(scene, view, 1000, 5).points) {
+  for (const glm::dvec3& p : surface_probes(scene, {&view, 1}, 1000, 5).points) {
     EXPECT_TRUE(in_window(view, p)) << p.x << " " << p.y << " " << p.z;
     const bool plate = std::abs(p.z - 4) < 1e-6;
     EXPECT_TRUE(plate || std::abs(p.z - 8) < 1e-6) << p.z;
@@ -132,9 +132,9 @@ TEST(SurfaceProbes, LieOnReceiversInTheWindow) {
   EXPECT_NEAR(on_plate, 1000 * share, 5 * std::sqrt(1000 * share));
 
   scene.geometry[1].receives = false;
-  for (const glm::dvec3& p : surface_probes(scene, view, 100, 5).points) EXPECT_NEAR(p.z, 4, 1e-6);
+  for (const glm::dvec3& p : surface_probes(scene, {&view, 1}, 100, 5).points) EXPECT_NEAR(p.z, 4, 1e-6);
   scene.geometry[0].receives = false;
-  EXPECT_TRUE(surface_probes(scene, view, 100, 5).points.empty());
+  EXPECT_TRUE(surface_probes(scene, {&view, 1}, 100, 5).points.empty());
 }
 
 TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
@@ -144,7 +144,7 @@ TEST(SurfaceProbes, ClosedMeshesFaceTheLight) {
   const View view = uniform_map(8, {}).views[0];
   const auto farthest = [&] {
     double z = 0;
-    for (const glm::dvec3& p : surface_probes(scene, view, 500, 6).points) z = std::max(z, p.z);
+    for (const glm::dvec3& p : surface_probes(scene, {&view, 1}, 500, 6).points) z = std::max(z, p.z);
     return z;
   };
   // The horizon of a unit sphere seen from 5 m lies at z = 5 - 1/5; a facet of 7.5 degrees may reach beyond.
@@ -204,7 +204,7 @@ TEST(SurfaceProbes, LeaveOutWhatSolidsBury) {
   scene.geometry = {box({-0.5, -0.5, 5}, {0.5, 0.5, 7}), box({-9, -9, 6}, {9, 9, 8}),
                     plate(-0.4, -0.4, 0.4, 0.4, 5.5)};
   const View view = uniform_map(8, {}).views[0];
-  const SurfaceProbes probes = surface_probes(scene, view, 2000, 5);
+  const SurfaceProbes probes = surface_probes(scene, {&view, 1}, 2000, 5);
   ASSERT_EQ(probes.points.size(), 2000U);
   std::uint32_t on_floor = 0;
   for (const glm::dvec3& p : probes.points) {
@@ -221,7 +221,7 @@ TEST(SurfaceProbes, LeaveOutWhatSolidsBury) {
   EXPECT_NEAR(static_cast<double>(probes.buried), 2000 * buried, 5 * std::sqrt(2000 * buried * (1 + buried)));
   // Of an open sheet, one side in the air is enough.
   scene.geometry = {plate(-0.4, -0.4, 0.4, 0.4, 5), box({-0.5, -0.5, 5}, {0.5, 0.5, 7})};
-  EXPECT_EQ(surface_probes(scene, view, 500, 5).buried, 0U);
+  EXPECT_EQ(surface_probes(scene, {&view, 1}, 500, 5).buried, 0U);
 }
 
 TEST(FreeProbes, FillTheDomain) {
@@ -238,8 +238,8 @@ TEST(FreeProbes, FillTheDomain) {
   // Texel (i, j) ends at its own depth.
   map.images[0].blocks[0].domain_end.assign(64, 0x8000);
   map.images[0].blocks[0].domain_end[0] = 0xFFFF;
-  EXPECT_NEAR(domain_end(map, 1, 0), 5, 1e-3);
-  EXPECT_EQ(domain_end(map, 0, 0), 8);
+  EXPECT_NEAR(domain_end(map, 0, 1, 0), 5, 1e-3);
+  EXPECT_EQ(domain_end(map, 0, 0, 0), 8);
   for (const glm::dvec3& p : free_probes(map, 500, 8)) {
     const bool first = p.x / p.z < -0.225 && p.y / p.z < -0.225;
     EXPECT_LE(p.z, first ? 8 : 5.0001);

@@ -2,7 +2,7 @@
 // The lights that are on, and what arrives of them.
 struct ViewerLight {
   vec4 colour;     // linear RGB; w: number of its map, -1 without one
-  vec4 direction;  // unit
+  vec4 direction;  // unit; 0 of a light that shines to all sides
   vec4 points[9];  // equal areas of the emitter; [4] is the centre. w = 0: unit vectors to a distant light
 };
 layout(std140) uniform ViewerLights {
@@ -14,6 +14,12 @@ vec3 way_to_light(vec4 point, vec3 position) {
   return point.xyz - point.w * position;
 }
 
+// Distance times the cosine at the light.
+float facing(int light, vec3 to_light) {
+  vec3 direction = viewer_lights[light].direction.xyz;
+  return direction == vec3(0.0) ? length(to_light) : max(-dot(direction, to_light), 0.0);
+}
+
 // As irradiance() in bake/evaluate/studio.h.
 float irradiance(int light, vec3 position, vec3 normal) {
   float sum = 0.0;
@@ -21,8 +27,7 @@ float irradiance(int light, vec3 position, vec3 normal) {
     vec3 to_light = way_to_light(viewer_lights[light].points[i], position);
     float squared = max(dot(to_light, to_light), 1e-30);
     float at_surface = max(dot(normal, to_light), 0.0);
-    float at_light = max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0);
-    sum += at_surface * at_light / (squared * squared);
+    sum += at_surface * facing(light, to_light) / (squared * squared);
   }
   return sum / 9.0;
 }
@@ -31,7 +36,7 @@ float irradiance(int light, vec3 position, vec3 normal) {
 float irradiance_around(int light, vec3 position) {
   vec3 to_light = way_to_light(viewer_lights[light].points[4], position);
   float squared = max(dot(to_light, to_light), 1e-30);
-  return max(-dot(viewer_lights[light].direction.xyz, to_light), 0.0) / (squared * sqrt(squared));
+  return facing(light, to_light) / (squared * sqrt(squared));
 }
 
 float map_visibility(int light, vec3 position, vec3 normal) {

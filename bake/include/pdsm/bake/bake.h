@@ -130,7 +130,7 @@ struct BakeCallbacks {
 struct BakedMap {
   PenumbraMap map;
   std::vector<std::vector<EncodedBlock>> blocks;
-  FittedView fitted;
+  FittedView fitted;  ///< of several views the first; `nothing_...` of all
   BakeReport report;
 };
 

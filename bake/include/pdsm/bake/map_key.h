@@ -21,7 +21,7 @@ struct MapKey {
   /// reports, but for times, memory, `receivers_outside` and warnings. What lies outside of the hull of the
   /// light and its window has no part in it, unless the view is fitted to it.
   std::string key;
-  FittedView fitted;
+  FittedView fitted;                  ///< as BakedMap has it
   std::vector<std::string> warnings;  ///< that the bake's report would have
 };
 

@@ -90,6 +90,11 @@ struct DiskLight {
 /// Throws Error (input) "name:opacity: reason" for one outside of 0 .. 1, or NaN. Baking calls it.
 void check_opacity(const Geometry& geometry);
 
+/// A ball that emits from all of its surface: its map has the six faces of a cube as views.
+struct SphereLight {
+  double radius = 0.5;  ///< metres; 0 makes a point
+};
+
 /// A light so far away that it is seen under the same angle from everywhere: the sun.
 struct DistantLight {
   double angle = 0.53;  ///< full angular diameter, degrees, 0 .. kMostDistantAngle; 0 makes hard shadows
@@ -104,9 +109,9 @@ struct EmissionImage {
 };
 inline constexpr std::uint32_t kMostEmissionTexels = 8192;
 
-using LightShape = std::variant<RectLight, DiskLight, DistantLight>;
+using LightShape = std::variant<RectLight, DiskLight, DistantLight, SphereLight>;
 
-/// A one-sided planar area light, or a distant one.
+/// A one-sided planar area light, a distant one, or a sphere.
 struct Light {
   std::string name;  ///< [A-Za-z0-9_-]+, unique in the scene
   LightShape shape;
@@ -120,6 +125,9 @@ struct Light {
   std::optional<double> near_depth, far_depth;             ///< metres; default fitted
   std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
   std::optional<std::uint32_t> samples;
+  /// Views of a planar light's map: 1, or 5 that see all in front of it (half a cube). A sphere light has 6,
+  /// whatever this says. Several views leave no choice of `window`.
+  std::uint32_t faces = 1;
   std::shared_ptr<const EmissionImage> emission;  ///< of a rect light; null: the same everywhere
 };
 
@@ -153,6 +161,15 @@ struct Scene {
 /// Whether the light's rays are parallel for each of its points.
 [[nodiscard]] inline bool is_distant(const Light& light) {
   return std::holds_alternative<DistantLight>(light.shape);
+}
+
+[[nodiscard]] inline bool is_sphere(const Light& light) {
+  return std::holds_alternative<SphereLight>(light.shape);
+}
+
+/// Views of a light's map.
+[[nodiscard]] inline std::uint32_t view_count(const Light& light) {
+  return is_sphere(light) ? 6 : light.faces;
 }
 
 /// Moves the origin of a distant light's space in front of all that casts or receives: on the middle of

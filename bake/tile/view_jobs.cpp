@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tile/view_jobs.h"
+
+namespace pdsm {
+
+BakeCallbacks view_callbacks(const BakeCallbacks& callbacks, std::size_t view, std::size_t count) {
+  if (count == 1 || !callbacks.progress) return callbacks;
+  BakeCallbacks of_view = callbacks;
+  of_view.progress = [tell = callbacks.progress, view, count](const BakeProgress& progress) {
+    BakeProgress of_all = progress;
+    of_all.done = (static_cast<double>(view) + progress.done) / static_cast<double>(count);
+    tell(of_all);
+  };
+  return of_view;
+}
+
+}  // namespace pdsm
