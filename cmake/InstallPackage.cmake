@@ -26,5 +26,8 @@ configure_package_config_file(cmake/pdsm-config.cmake.in ${CMAKE_CURRENT_BINARY_
   INSTALL_DESTINATION ${PDSM_CMAKE_DIR})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/pdsm-config-version.cmake
   COMPATIBILITY SameMinorVersion)
+if(PDSM_BUILD_BAKE)
+  install(FILES cmake/FindInstalledOpenVDB.cmake DESTINATION ${PDSM_CMAKE_DIR})
+endif()
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/pdsm-config-version.cmake
   DESTINATION ${PDSM_CMAKE_DIR})

@@ -11,14 +11,21 @@
 #include "pdsm/format/error.h"
 #include "pdsm/runtime/look_up.h"
 #include "tile/bake_blocks.h"
+#include "trace/volume_steps.h"
 
 namespace pdsm {
 namespace {
 
 /// The map's bake without fit: every event where it is, on all depths. Translucent casters take away what is
 /// no count of samples, so that theirs is next to it.
-BakeOptions without_fit(const Scene& scene, BakeOptions options) {
-  options.epsilon = std::ranges::any_of(scene.geometry, is_translucent_caster) ? kLeastLossyEpsilon : 0;
+BakeOptions without_fit(const Scene& scene, BakeOptions options, std::uint32_t samples) {
+  const bool has_volumes =
+      std::ranges::any_of(scene.volumes, [](const Volume& volume) { return casts_shadows(volume); });
+  // The volumes' steps stay the map's.
+  if (has_volumes && options.volume_steps == 0)
+    options.volume_steps = choose_volume_steps(options.epsilon, samples);
+  const bool lossy = has_volumes || std::ranges::any_of(scene.geometry, is_translucent_caster);
+  options.epsilon = lossy ? kLeastLossyEpsilon : 0;
   options.depth_tolerance = 0;
   options.mip_levels = 0;
   if (options.receivers == Receivers::surfaces) options.receivers = Receivers::volume;
@@ -82,7 +89,8 @@ PointParts measure_point_parts(const PenumbraMap& map, const Scene& scene, const
   std::vector<double> unfitted, unrounded = looked_up;
   SampleRayValues rays;
   {
-    const BakeJob job(scene, light, without_fit(scene, options));
+    const BakeJob job(scene, light,
+                      without_fit(scene, options, static_cast<std::uint32_t>(map.samples.size())));
     check_same(map, job);
     const QuadAnswers answers = ask_bake(job, quads);
     unfitted = answers.mixed();

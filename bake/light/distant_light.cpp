@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pdsm/bake/scene.h"
+#include "scene/volume_hull.h"
 
 namespace pdsm {
 namespace {
@@ -17,20 +18,23 @@ struct Bounds {
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 
   [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
+  void include(const Geometry& geometry, const glm::dmat3& axes) {
+    for (const glm::vec3& local : geometry.mesh->positions) {
+      const glm::dvec3 p = glm::dvec3(geometry.local_to_world * glm::dvec4(glm::dvec3(local), 1.0)) * axes;
+      if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest)) continue;
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
 };
 
 /// Bounds of what casts or receives along the axes that are the columns of `axes`.
 Bounds bounds_along(const Scene& scene, const glm::dmat3& axes) {
   Bounds bounds;
-  for (const Geometry& geometry : scene.geometry) {
-    if (!geometry.mesh || (!geometry.casts && !geometry.receives)) continue;
-    for (const glm::vec3& local : geometry.mesh->positions) {
-      const glm::dvec3 p = glm::dvec3(geometry.local_to_world * glm::dvec4(glm::dvec3(local), 1.0)) * axes;
-      if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest)) continue;
-      bounds.low = glm::min(bounds.low, p);
-      bounds.high = glm::max(bounds.high, p);
-    }
-  }
+  for (const Geometry& geometry : scene.geometry)
+    if (geometry.mesh && (geometry.casts || geometry.receives)) bounds.include(geometry, axes);
+  for (const Volume& volume : scene.volumes)
+    if (casts_shadows(volume)) bounds.include(volume_hull(volume), axes);
   return bounds;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -16,8 +17,10 @@
 #include "light/fit_face.h"
 #include "light/light_faces.h"
 #include "light/light_geometry.h"
+#include "light/light_in_volume.h"
 #include "light/light_spread.h"
 #include "pdsm/format/error.h"
+#include "scene/volume_hull.h"
 
 namespace pdsm {
 namespace {
@@ -132,11 +135,16 @@ void visit_inside(const LightTriangle& triangle, const ConvexRegion& region, Vis
 class ViewFitter {
  public:
   ViewFitter(const Scene& scene, const LightFace& face)
-      : scene_(scene), face_(face), light_(face.light), space_(face.light), spread_(face) {}
+      : scene_(scene), face_(face), light_(face.light), space_(face.light), spread_(face) {
+    for (const Volume& volume : scene.volumes)
+      if (casts_shadows(volume)) hulls_.push_back(volume_hull(volume));
+  }
 
   [[nodiscard]] FittedView fit() const;
 
  private:
+  template <typename Visit>
+  void visit_geometry(Role role, Visit&& visit) const;
   template <typename Visit>
   void visit_parts(Role role, const ConvexRegion& region, Visit&& visit) const;
   [[nodiscard]] bool faces_light(const Geometry& geometry, const LightTriangle& triangle) const;
@@ -153,11 +161,19 @@ class ViewFitter {
   [[nodiscard]] double fit_near(double nearest, const FittedView& fitted) const;
   [[nodiscard]] Window pad_window(Window window, double deepest) const;
 
+  /// Whether light may begin in a volume: then no surface tells where that begins to cast.
+  [[nodiscard]] bool volume_holds_light(double deepest) const {
+    return std::ranges::any_of(scene_.volumes, [&](const Volume& volume) {
+      return casts_shadows(volume) && may_hold_light(volume, face_, emitter_depth(deepest));
+    });
+  }
+
   const Scene& scene_;
   const LightFace& face_;
   const Light& light_;
   LightSpace space_;
   LightSpread spread_;
+  std::vector<Geometry> hulls_;  ///< of volumes: casters
 };
 
 /// Whether light from any point of the emitter can arrive at the front of the triangle; open meshes have
@@ -166,16 +182,22 @@ bool ViewFitter::faces_light(const Geometry& geometry, const LightTriangle& tria
   return !geometry.mesh->closed || spread_.reaches_front(triangle.corners);
 }
 
+template <typename Visit>
+void ViewFitter::visit_geometry(Role role, Visit&& visit) const {
+  for (const std::vector<Geometry>& all : {std::cref(scene_.geometry), std::cref(hulls_)})
+    for (const Geometry& geometry : all)
+      if (has_role(geometry, role)) visit(geometry);
+}
+
 /// Calls visit(geometry, triangle, polygon) for the part inside `region` of each triangle of that role.
 template <typename Visit>
 void ViewFitter::visit_parts(Role role, const ConvexRegion& region, Visit&& visit) const {
-  for (const Geometry& geometry : scene_.geometry) {
-    if (!has_role(geometry, role)) continue;
+  visit_geometry(role, [&](const Geometry& geometry) {
     space_.visit_triangles(geometry, region, [&](const LightTriangle& triangle) {
       visit_inside(triangle, region,
                    [&](std::span<const glm::dvec3> part) { visit(geometry, triangle, part); });
     });
-  }
+  });
 }
 
 /// What is seen through `window`: the receivers, or the casters when nothing receives there.
@@ -234,6 +256,7 @@ Window ViewFitter::pad_window(Window window, double deepest) const {
 Window ViewFitter::fit_window(const ReceiverBounds& receivers) const {
   if (receivers.places.empty()) return kDefaultWindow;
   const double deepest = receivers.depth, tolerance = kEmitterSkin * deepest;
+  if (volume_holds_light(deepest)) return pad_window(receivers.places.box, deepest);
   ConvexRegion region = spread_.hull(receivers.places.box, deepest);
   limit_depth(region, emitter_depth(deepest), deepest * (1 - kDepthPad));
 
@@ -265,9 +288,8 @@ Window ViewFitter::fit_window(const ReceiverBounds& receivers) const {
 double ViewFitter::nearest_caster(const Window& window, double deepest, double far) const {
   ConvexRegion region = spread_.hull(window, far);
   limit_depth(region, emitter_depth(far), deepest * (1 - kDepthPad));
-  double nearest = kInfinity;
-  for (const Geometry& geometry : scene_.geometry) {
-    if (!has_role(geometry, Role::caster)) continue;
+  double nearest = volume_holds_light(far) ? emitter_depth(far) : kInfinity;
+  visit_geometry(Role::caster, [&](const Geometry& geometry) {
     space_.visit_triangles(geometry, region, [&](const LightTriangle& triangle) {
       const auto& c = triangle.corners;
       if (std::min({c[0].z, c[1].z, c[2].z}) >= nearest) return;
@@ -275,7 +297,7 @@ double ViewFitter::nearest_caster(const Window& window, double deepest, double f
         for (const glm::dvec3& p : part) nearest = std::min(nearest, p.z);
       });
     });
-  }
+  });
   return nearest;
 }
 

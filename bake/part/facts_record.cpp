@@ -31,7 +31,8 @@ enum FactFlag : std::uint32_t {
   kHasBlockKeys = 512,
   kHasTranslucency = 1024,
   kCastsBeforeNear = 2048,
-  kAllFlags = 4095
+  kHasVolumes = 4096,
+  kAllFlags = 8191
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -41,7 +42,7 @@ std::uint32_t flags_of(const BakeFacts& facts) {
          bit(facts.has_shadows, kHasShadows) | bit(facts.is_projected, kIsProjected) |
          bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
          bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys) |
-         bit(facts.has_translucency, kHasTranslucency) |
+         bit(facts.has_translucency, kHasTranslucency) | bit(facts.has_volumes, kHasVolumes) |
          bit(facts.fitted.casts_before_near, kCastsBeforeNear);
 }
 
@@ -57,6 +58,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.has_cutouts = (flags & kHasCutouts) != 0;
   facts.has_emission = (flags & kHasEmission) != 0;
   facts.has_translucency = (flags & kHasTranslucency) != 0;
+  facts.has_volumes = (flags & kHasVolumes) != 0;
   facts.has_block_keys = (flags & kHasBlockKeys) != 0;
 }
 

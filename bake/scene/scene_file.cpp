@@ -21,8 +21,9 @@
 #include "scene/light_check.h"
 #include "scene/one_line.h"
 #include "scene/part_rules.h"
-#include "scene/placement.h"
 #include "scene/read_light.h"
+#include "scene/read_placement.h"
+#include "scene/read_volume.h"
 
 namespace pdsm {
 namespace {
@@ -56,20 +57,6 @@ class SceneReader {
   Scene scene_;
 };
 
-/// The scale of a placement: a number or one an axis, none of them 0.
-glm::dvec3 read_scale(const JsonFields& fields) {
-  const json* value = fields.find("scale");
-  if (value == nullptr) return glm::dvec3(1);
-  if (!value->is_number() && !value->is_array()) fields.refuse("scale", "must be a number or [x,y,z], not 0");
-  const glm::dvec3 scale = value->is_number() ? glm::dvec3(fields.number("scale")) : fields.vector("scale");
-  // Anything smaller is flat in float.
-  constexpr double kMinScale = 1e-12;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(scale[axis]) >= kMinScale)) fields.refuse("scale", "must be a number or [x,y,z], not 0");
-  }
-  return scale;
-}
-
 const ImportedFile& SceneReader::import(const JsonFields& fields) {
   const std::string name = fields.text("file");
   if (name.empty() || name.find('\0') != std::string::npos) fields.refuse("file", "must name a file");
@@ -94,11 +81,7 @@ void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
 void SceneReader::read_geometry(const json& node, std::size_t index) {
   const JsonFields fields(node, file_, join_path("geometry", index));
   fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity", "parts"});
-  const auto vector_or_zero = [&](const char* key) {
-    return fields.has(key) ? fields.vector(key) : glm::dvec3(0);
-  };
-  const glm::dmat4 placement =
-      placement_matrix(read_scale(fields), vector_or_zero("rotate"), vector_or_zero("translate"));
+  const glm::dmat4 placement = read_placement(fields);
   const bool casts = !fields.has("casts") || fields.boolean("casts");
   const bool receives = !fields.has("receives") || fields.boolean("receives");
   const double opacity = fields.has("opacity") ? fields.share("opacity") : 1;
@@ -147,13 +130,16 @@ void SceneReader::read_json() {
   const json root = parse_json(files_.read(path_, kMaxSceneFileBytes), file_);
   const JsonFields fields(root, file_, "");
   fields.allow_only({"geometry", "volumes", "lights"});
-  if (fields.has("volumes") && !fields.array("volumes").empty())
-    fields.refuse("volumes", "not supported yet");
   // Lights first: their faults are told before large files are read.
   if (fields.has("lights")) read_lights(fields.array("lights"));
-  if (!fields.has("geometry")) return;
-  const json& nodes = fields.array("geometry");
-  for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
+  if (fields.has("geometry")) {
+    const json& nodes = fields.array("geometry");
+    for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
+  }
+  if (!fields.has("volumes")) return;
+  const json& nodes = fields.array("volumes");
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    read_volume({nodes[i], file_, join_path("volumes", i)}, path_.parent_path(), files_, scene_);
 }
 
 void SceneReader::read_gltf() {

@@ -30,6 +30,8 @@ constexpr double kToleranceShare = 0.25;
 /// A fitted near is at least this share of far (view_fit.h).
 constexpr double kNearFloor = 1e-4;
 constexpr double kClipSlack = 1e-5;
+/// Translucent surfaces that a ray may meet; a tile that needs more memory than its plan's takes it.
+constexpr std::uint32_t kExpectedSurfaces = 4;
 constexpr std::uint32_t kMostSamples = 65536, kMostTexels = 16384;
 
 void require(bool holds, const char* option, const std::string& reason) {
@@ -52,6 +54,7 @@ void check_options(const BakeOptions& o) {
   require(is_length(o.bias), "--bias", "must be 0 or more metres");
   require(o.tile % kBlockSize == 0, "--tile", "must be a multiple of 64");
   require(o.threads <= 1024, "--threads", "must be at most 1024");
+  require(o.volume_steps <= kMostVolumeSteps, "volume steps", "must be from 0 to 256");
   require(o.mip_levels <= kMostMipLevels, "--mip-levels", "must be from 0 to 6");
 }
 
@@ -126,6 +129,11 @@ double default_bias(const MapGrid& grid) {
   return kBiasFootprints * std::max(grid.pitch[0], grid.pitch[1]) * grid.spread_at(grid.far_depth);
 }
 
+/// Layers that a map texel may have, about: of surfaces, then of volumes.
+std::uint32_t count_layers(const BakeSetup& setup) {
+  return (setup.light_space.has_translucency() ? kExpectedSurfaces : 0) + setup.volume_steps;
+}
+
 }  // namespace
 
 BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted, std::uint32_t index)
@@ -147,16 +155,20 @@ BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& 
   // Samples that the caller brings may lie outside the light's shape, and see more.
   if (options.light_samples.empty()) keep_within(light_space, map_reach(face, grid));
   seconds_bvh = omp_get_wtime() - start;
-  const bool translucent = light_space.has_translucency();
-  require(!translucent || !is_lossless(options.epsilon), "--epsilon",
-          "too small for translucent casters, whose values are no counts: must be 3.1e-5 or more");
+  const bool has_layers = light_space.has_layers();
+  require(
+      !has_layers || !is_lossless(options.epsilon), "--epsilon",
+      "too small for translucent casters and volumes, whose values are no counts: must be 3.1e-5 or more");
+  if (!light_space.volumes.empty())
+    volume_steps = options.volume_steps != 0 ? options.volume_steps
+                                             : choose_volume_steps(options.epsilon, options.samples);
   make_rules(16);
 }
 
 void BakeSetup::make_rules(std::uint32_t least_depth_bits) {
   rules = make_fit_rules(
       fitted.view, options.samples, options.epsilon, options.depth_tolerance.value_or(kToleranceShare * bias),
-      light_space.has_translucency() ? transmittance_unit(options.samples) : 1, least_depth_bits);
+      light_space.has_layers() ? transmittance_unit(options.samples) : 1, least_depth_bits);
   if (options.unrounded_values) write_unrounded(rules);
 }
 
@@ -165,7 +177,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
     : BakeSetup(scene, light, wanted, index) {
   options.isa = choose_isa(options.isa);
   plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels,
-                     share_rect(grid, share)});
+                     share_rect(grid, share), count_layers(*this)});
   const double start = omp_get_wtime();
   embree = std::make_unique<EmbreeScene>(light_space, options.isa, options.threads);
   seconds_bvh += omp_get_wtime() - start;
@@ -173,6 +185,7 @@ BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& want
   if (has_shadows() && shift_law() && grid.perspective())
     casters = project_casters(light_space, grid, bound_samples(samples),
                               first_caster_depth(grid, samples.front()), options.threads);
+  for (const LightSpaceVolume& volume : light_space.volumes) volumes.emplace_back(volume);
   resident_after_bvh = resident_bytes();
 }
 
@@ -190,12 +203,16 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   bound_samples(samples),
                   caster_clip_depth(fitted, face, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth,
-                  casters};
+                  casters,
+                  volumes,
+                  {},
+                  {}};
   input.finds_cells = finds_cells();
   if (!shift_law() && finds_cells()) input.light_hull = map_reach(face, grid);
   for (std::uint32_t level = 1; level <= mip_levels; ++level)
     input.level_rules.push_back(make_level_rules(rules, level));
   for (std::size_t n = 0; n < samples.size(); n += sample_stride) input.samples.push_back(samples[n]);
+  input.volume_steps = VolumeSteps(volume_steps, static_cast<std::uint32_t>(input.samples.size()));
   return input;
 }
 

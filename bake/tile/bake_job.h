@@ -9,6 +9,7 @@
 #include "trace/caster_triangles.h"
 #include "trace/embree_scene.h"
 #include "trace/light_space.h"
+#include "trace/volume_field.h"
 
 namespace pdsm {
 
@@ -32,9 +33,10 @@ struct BakeSetup {
   MapGrid grid;
   double bias = 0;  ///< its constant part, metres
   FitRules rules;
-  std::uint32_t mip_levels = 0;  ///< above 0, that are made
-  LightSpaceScene light_space;   ///< what the light can see of the scene (trace/map_reach.h)
-  double seconds_bvh = 0;        ///< of moving the scene to light space, and of the BVH where there is one
+  std::uint32_t mip_levels = 0;    ///< above 0, that are made
+  std::uint32_t volume_steps = 0;  ///< of each sample; 0 without volumes
+  LightSpaceScene light_space;     ///< what the light can see of the scene (trace/map_reach.h)
+  double seconds_bvh = 0;          ///< of moving the scene to light space, and of the BVH where there is one
 };
 
 /// Everything between the options and the first tile, made once: besides the setup BVH, projected casters,
@@ -64,6 +66,7 @@ class BakeJob : public BakeSetup {
   TilePlan plan;
   std::unique_ptr<EmbreeScene> embree;
   CasterTriangles casters;  ///< none where maps are traced
+  std::vector<VolumeField> volumes;
   std::uint64_t resident_after_bvh = 0;
 };
 

@@ -28,7 +28,8 @@ constexpr unsigned kFlushDenormals = 0x8040;
 /// What one thread owns while walking.
 struct WalkThread {
   SampleMap map;
-  LayerMap layers;  ///< with translucent casters only
+  LayerMap layers;                   ///< with translucent casters and volumes only
+  std::vector<double> volume_steps;  ///< of the sample
   DepthImage image;
   PacketMask mask;
   ShiftWalk shift;
@@ -106,16 +107,22 @@ TexelRect cut_strip(const TexelRect& tile, std::uint32_t n, std::uint32_t count)
   return strip;
 }
 
-void trace_translucent(const TileInput& input, const LightSample& sample, const MapBias& bias,
+void trace_translucent(const TileInput& input, std::uint32_t sample, const MapBias& bias,
                        const PacketMask* mask, WalkThread& thread) {
   if (!input.is_translucent()) return;
-  thread.statistics.rays += trace_layers(input.scene, input.grid, sample, bias, mask, thread.map,
-                                         input.rules.transmittance_unit, thread.layers, thread.slope_bias);
+  const bool has_volumes = !input.volumes.empty();
+  if (has_volumes) input.volume_steps.list(sample, thread.volume_steps);
+  VolumeLayers volumes(input.volumes, thread.volume_steps,
+                       has_volumes ? input.volume_steps.march_offset(sample) : 0);
+  thread.statistics.rays +=
+      trace_layers(input.scene, volumes, input.grid, input.samples[sample], bias, mask, thread.map,
+                   input.rules.transmittance_unit, thread.layers, thread.slope_bias);
 }
 
 /// Traces what the rays of a strip look at in the map of a sample out of the plane.
-void trace_general_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+void trace_general_strip(const TileInput& input, std::uint32_t sample_index, const TexelRect& strip,
                          const ShadowCells& cells, WalkThread& thread) {
+  const LightSample& sample = input.samples[sample_index];
   const MapBias bias = sample_bias(input.grid, input.walk, input.shift_law, input.bias, sample);
   thread.map.reset(general_footprint(input.grid, sample, strip), input.grid.ratio[0].fine);
   const PacketMask* mask = nullptr;
@@ -128,13 +135,14 @@ void trace_general_strip(const TileInput& input, const LightSample& sample, cons
   }
   thread.statistics.rays +=
       trace_sample_map(input.scene, input.grid, sample, bias, mask, thread.map, thread.slope_bias);
-  trace_translucent(input, sample, bias, mask, thread);
+  trace_translucent(input, sample_index, bias, mask, thread);
 }
 
 /// Traces what the rays of a strip look at in the map of one sample: only cells that may be darkened.
-void trace_strip(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+void trace_strip(const TileInput& input, std::uint32_t sample_index, const TexelRect& strip,
                  const ShadowCells& cells, WalkThread& thread) {
-  if (!input.shift_law) return trace_general_strip(input, sample, strip, cells, thread);
+  if (!input.shift_law) return trace_general_strip(input, sample_index, strip, cells, thread);
+  const LightSample& sample = input.samples[sample_index];
   const MapBias bias = sample_bias(input.grid, input.walk, input.shift_law, input.bias, sample);
   const std::uint32_t interleave = input.grid.ratio[0].fine;
   thread.shift.list(input.grid, sample, input.walk);
@@ -148,7 +156,7 @@ void trace_strip(const TileInput& input, const LightSample& sample, const TexelR
                              thread.slope_bias)
           : raster_sample_map(input.scene, input.casters, input.grid, sample, bias, cells.idle_casters,
                               thread.mask, thread.image, thread.map, thread.slope_bias);
-  trace_translucent(input, sample, bias, &thread.mask, thread);
+  trace_translucent(input, sample_index, bias, &thread.mask, thread);
   thread.shift.bind(thread.map);
 }
 
@@ -176,12 +184,12 @@ void walk_strip(const TileInput& input, const LightSample& sample, const TexelRe
   }
 }
 
-void process_sample(const TileInput& input, const LightSample& sample, const TexelRect& strip,
+void process_sample(const TileInput& input, std::uint32_t sample, const TexelRect& strip,
                     const ShadowCells& cells, const std::vector<TileBlock>& blocks, WalkThread& thread) {
   const double start = omp_get_wtime();
   trace_strip(input, sample, strip, cells, thread);
   const double traced = omp_get_wtime();
-  walk_strip(input, sample, strip, blocks, thread);
+  walk_strip(input, input.samples[sample], strip, blocks, thread);
   thread.statistics.trace += traced - start;
   thread.statistics.walk += omp_get_wtime() - traced;
 }
@@ -277,7 +285,8 @@ class TileJob {
         failure_.guard([&] {
           const TexelRect strip = cut_strip(tile_, static_cast<std::uint32_t>(task % strips_), strips_);
           if (strip.y0 < strip.y1)
-            process_sample(input_, input_.samples[task / strips_], strip, cells_, blocks_, thread);
+            process_sample(input_, static_cast<std::uint32_t>(task / strips_), strip, cells_, blocks_,
+                           thread);
         });
         report(kWalkShare * static_cast<double>(++done) / static_cast<double>(tasks));
       }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fit/fit_rules.h"
@@ -14,6 +15,8 @@
 #include "tile/tile_plan.h"
 #include "trace/caster_triangles.h"
 #include "trace/embree_scene.h"
+#include "trace/volume_field.h"
+#include "trace/volume_steps.h"
 
 namespace pdsm {
 
@@ -38,11 +41,13 @@ struct TileInput {
   bool finds_cells = true;         ///< rays that nothing can darken are left out (tile/shadow_cells.h)
   /// Of a view whose samples lie out of its plane: what can block. None: the shift law holds.
   std::optional<ConvexRegion> light_hull = {};
+  std::span<const VolumeField> volumes;       ///< that map rays march through
+  VolumeSteps volume_steps;                   ///< of `samples`, where there are volumes
   std::vector<FitRules> level_rules = {};     ///< of mip levels 1, 2, ...; none where none are made
   const BlockInputs* block_inputs = nullptr;  ///< for the keys of blocks; null: they get none
 
   /// Whether events are changes of transmittance (events/transmittance_events.h).
-  [[nodiscard]] bool is_translucent() const { return scene.translucent() != nullptr; }
+  [[nodiscard]] bool is_translucent() const { return scene.geometry().has_layers(); }
 };
 
 /// What a tile did; sums over its threads.

@@ -50,6 +50,16 @@ class CasterLists {
       return true;
     });
   }
+  /// Marks the blocks that a volume may darken: there is no list of what decides about them.
+  void add(const LightSpaceVolume& volume, double far_depth) {
+    const bool holds_light = volume.begins_before(kEmitterShare * far_depth);
+    if (holds_light)
+      for (BlockCasters& block : lists_) block.is_traced = true;
+    const LightSpaceMesh& hull = volume.hull;
+    for (const glm::uvec3& t : hull.triangles)
+      for_each_block(reach_.of({hull.positions[t.x], hull.positions[t.y], hull.positions[t.z]}),
+                     [](BlockCasters& block) { return block.is_traced = true; });
+  }
   /// Whether none of these casters tells anything: they reach no block that might get a key.
   [[nodiscard]] bool may_pass_over(const LightSpaceMesh& mesh, std::span<const glm::uvec3> triangles) {
     glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
@@ -113,6 +123,8 @@ std::vector<BlockCasters> list_casters(const BakeJob& job) {
   const std::size_t count = count_casters(job.light_space);
   const std::size_t threads = job.options.threads;
   std::vector<CasterLists> parts(threads, CasterLists(job, reach, steep));
+  for (const LightSpaceVolume& volume : job.light_space.volumes)
+    parts.front().add(volume, job.grid.far_depth);
 #pragma omp parallel for schedule(static) num_threads(static_cast <int>(threads))
   for (std::size_t n = 0; n < threads; ++n)
     add_casters(job.light_space, count * n / threads, count * (n + 1) / threads, parts[n]);

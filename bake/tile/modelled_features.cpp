@@ -100,10 +100,13 @@ void list_visibility(const BakeFacts& facts, std::uint64_t texels, bool is_one_o
               counted((texels - 1) * samples, "conversions of a ray"));
   if (casts && facts.has_translucency)
     list.modelled("translucency", "casters let a part of the light through: their layers are traced");
-  else
+  else if (!casts || !facts.has_volumes)
     list.left_out("transmittance", "all casters are opaque: events are counted in integers",
                   counted(samples, "transmittance functions a map texel"));
-  list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
+  if (casts && facts.has_volumes)
+    list.modelled("volumes", "densities take light away: the rays of maps march through them");
+  else
+    list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
 }
 
 void list_faces(const MapFacts& views, FeatureList& list) {

@@ -108,6 +108,29 @@ void add_scene(KeyHash& hash, const LightSpaceScene& scene) {
   }
 }
 
+/// What marks that volumes follow.
+constexpr std::uint64_t kVolumesFollow = 0x73656d756c6f7673U;
+
+/// Nothing where there are none.
+void add_volumes(KeyHash& hash, const BakeSetup& setup) {
+  const LightSpaceScene& scene = setup.light_space;
+  if (scene.volumes.empty()) return;
+  hash.add(kVolumesFollow);
+  hash.add(std::uint64_t{scene.volumes.size()});
+  hash.add(setup.volume_steps);
+  hash.add(setup.rules.transmittance_unit);
+  for (const LightSpaceVolume& volume : scene.volumes) {
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) hash.add(volume.light_to_index[column][row]);
+    hash.add(volume.extinction);
+    hash.add(std::uint64_t{volume.grid->bricks.size()});
+    for (const DensityBrick& brick : volume.grid->bricks) {
+      for (int axis = 0; axis < 3; ++axis) hash.add(brick.first[axis]);
+      hash.add(std::span(brick.density));
+    }
+  }
+}
+
 }  // namespace
 
 void add_setup(KeyHash& hash, const BakeSetup& setup, const Light& light, const std::string& isa,
@@ -135,6 +158,7 @@ std::string setup_key(std::span<const BakeSetup* const> views, const Light& ligh
   for (const BakeSetup* setup : views) {
     add_setup(hash, *setup, light, isa, version);
     add_scene(hash, setup->light_space);
+    add_volumes(hash, *setup);
   }
   const auto [high, low] = hash.digest();
   return fmt::format("{:016x}{:016x}", high, low);

@@ -87,6 +87,7 @@ class CellMarker {
     for (const LightSpaceMesh& mesh : input_.scene.meshes) {
       if (mesh.casts) mark_mesh(mesh);
     }
+    for (const LightSpaceVolume& volume : input_.scene.volumes) mark_volume(volume);
     find_idle_casters();
     return std::move(cells_);
   }
@@ -119,6 +120,14 @@ class CellMarker {
       }
     }
     return true;
+  }
+
+  /// What a volume darkens, it does through its hull, unless light begins within.
+  void mark_volume(const LightSpaceVolume& volume) {
+    if (volume.begins_before(std::max(kEmitterShare * input_.grid.far_depth, input_.light_bounds.max_z)))
+      std::ranges::fill(cells_.dark, std::uint8_t{1});
+    else
+      mark_mesh(volume.hull);
   }
 
   /// Each thread marks cells of its own; a mark never depends on other marks.

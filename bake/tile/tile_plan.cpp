@@ -8,6 +8,7 @@
 
 #include "events/event_log.h"
 #include "pdsm/format/error.h"
+#include "trace/layer_map.h"
 #include "trace/triangle_kernel.h"
 #include "walk/general_walk.h"
 #include "walk/shift_walk.h"
@@ -18,6 +19,8 @@ namespace {
 /// Events per ray and sample that a plan expects. The dragon has 0.3 on average, a forest of thin things
 /// more; a tile that has more than its share is split and baked again.
 constexpr double kExpectedEvents = 0.5;
+/// The same for each layer of a map texel; the smoke of tests/bench has 0.1.
+constexpr double kEventsPerLayer = 0.2;
 /// Encoded bytes per texel that a plan sets aside; the dragon needs 6 at epsilon 0.02.
 constexpr std::uint64_t kOutputBytesPerTexel = 8;
 /// The same of the mip levels, and what their parts take while they wait for their blocks; the dragon needs
@@ -89,6 +92,16 @@ double steps_of(const MapGrid& grid, const TexelRect& footprint, const TexelRect
   return 1 + std::max(0.0, beyond_x) + std::max(0.0, beyond_y);
 }
 
+/// Of a LayerMap, whose lists may take up to twice their size while they grow.
+std::uint64_t layer_bytes(const TexelRect& footprint, std::uint32_t layers) {
+  return layers == 0 ? 0 : 2 * footprint.area() * (sizeof(std::uint32_t) + layers * sizeof(Layer));
+}
+
+/// Events per ray and sample: each layer may make one.
+double expected_events(const PlanInput& input) {
+  return kExpectedEvents + kEventsPerLayer * input.layers;
+}
+
 TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
   TilePlan plan;
   plan.edge = edge;
@@ -101,7 +114,8 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
     const TexelRect footprint = sample_footprint(input.grid, sample, input.walk, first);
     const std::uint64_t bytes = SampleMap::bytes_for(footprint, input.grid.ratio[0].fine);
     // What is nearest is found in an image of its own, where maps are projected.
-    largest = std::max(largest, bytes + DepthImage::bytes_for(footprint));
+    largest =
+        std::max(largest, bytes + DepthImage::bytes_for(footprint) + layer_bytes(footprint, input.layers));
     margin_factor += static_cast<double>(bytes / sizeof(float)) / static_cast<double>(first.area());
     steps += steps_of(input.grid, footprint, first);
   }
@@ -110,7 +124,8 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
                       (kSecondsPerRay * margin_factor + kSecondsPerStep * steps +
                        kSecondsPerFunction * static_cast<double>(input.samples.size()));
   const double block_texels = std::min<double>(kBlockSize * kBlockSize, static_cast<double>(first.area()));
-  const double block_events = kExpectedEvents * block_texels * static_cast<double>(input.samples.size());
+  const double block_events =
+      expected_events(input) * block_texels * static_cast<double>(input.samples.size());
   const double fit_bytes = fit_bytes_per_event(input.mip_levels, block_texels) * block_events;
   plan.map_bytes = input.threads * (largest + kThreadOverhead + static_cast<std::uint64_t>(fit_bytes));
   plan.output_bytes = estimate_output(input);
@@ -125,7 +140,7 @@ TilePlan make_plan(const PlanInput& input, std::uint32_t edge) {
 bool fits(const PlanInput& input, const TilePlan& plan) {
   const std::uint64_t texels = plan.tiles.front().area();
   const double events =
-      kExpectedEvents * static_cast<double>(texels) * static_cast<double>(input.samples.size());
+      expected_events(input) * static_cast<double>(texels) * static_cast<double>(input.samples.size());
   const std::uint64_t blocks = texels / (kBlockSize * kBlockSize) + 1;
   const std::uint64_t open_pages = blocks * input.threads * EventLog::kPageEvents * sizeof(PackedEvent);
   return events * sizeof(PackedEvent) + static_cast<double>(open_pages) <=

@@ -34,6 +34,7 @@ struct PlanInput {
   std::uint32_t edge;                   ///< 0: choose
   std::uint32_t mip_levels = 0;         ///< above 0
   std::optional<TexelRect> share = {};  ///< whole blocks that are baked; default all
+  std::uint32_t layers = 0;             ///< that a map texel may have before what is opaque
 };
 
 /// The tiles that trace the fewest rays within `memory`: small tiles waste rays on margins, large ones

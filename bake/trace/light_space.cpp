@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/volume_hull.h"
+
 namespace pdsm {
 namespace {
 
@@ -57,7 +59,22 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
   return mesh;
 }
 
+LightSpaceVolume move_volume(const Volume& volume, const glm::dmat4& world_to_light) {
+  LightSpaceVolume moved;
+  moved.grid = volume.grid;
+  moved.light_to_index = glm::inverse(world_to_light * volume.index_to_world);
+  moved.extinction = volume.extinction;
+  std::uint64_t dropped = 0;
+  moved.hull = move_mesh(volume_hull(volume), world_to_light, dropped);
+  return moved;
+}
+
 }  // namespace
+
+bool LightSpaceVolume::begins_before(double depth) const {
+  return std::ranges::any_of(hull.positions,
+                             [&](const glm::vec3& p) { return static_cast<double>(p.z) <= depth; });
+}
 
 bool LightSpaceScene::has_cutouts() const {
   return std::ranges::any_of(meshes, &LightSpaceMesh::is_cutout_caster);
@@ -76,6 +93,10 @@ LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_t
     if (!geometry.casts && !geometry.receives) continue;
     result.meshes.push_back(move_mesh(geometry, matrix, result.dropped_triangles));
     result.triangles += result.meshes.back().triangles.size();
+  }
+  for (const Volume& volume : scene.volumes) {
+    check_volume(volume);
+    if (casts_shadows(volume)) result.volumes.push_back(move_volume(volume, matrix));
   }
   return result;
 }

@@ -30,19 +30,33 @@ struct LightSpaceMesh {
   [[nodiscard]] bool has_holes() const { return mask != nullptr && !mask->blends; }
 };
 
+/// One volume of a scene, that casts, as a light sees it.
+struct LightSpaceVolume {
+  std::shared_ptr<const DensityGrid> grid;
+  glm::dmat4 light_to_index{1.0};
+  double extinction = 0;
+  LightSpaceMesh hull;  ///< around all of it (scene/volume_hull.h)
+
+  /// Whether it reaches before `depth`, so that light may begin in it.
+  [[nodiscard]] bool begins_before(double depth) const;
+};
+
 /// The scene as one light sees it. Triangles with coordinates or places in a mask that are not finite are
 /// left out and counted.
 struct LightSpaceScene {
   std::vector<LightSpaceMesh> meshes;
+  std::vector<LightSpaceVolume> volumes;
   std::uint64_t triangles = 0, dropped_triangles = 0;
 
   /// Whether any caster has holes.
   [[nodiscard]] bool has_cutouts() const;
   /// Whether any caster lets a part of the light through.
   [[nodiscard]] bool has_translucency() const;
+  /// Whether light samples have layers before what is opaque: casters of either kind.
+  [[nodiscard]] bool has_layers() const { return has_translucency() || !volumes.empty(); }
 };
 
-/// Throws as check_mask() does.
+/// Throws as check_mask() and check_volume() do.
 [[nodiscard]] LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light);
 
 }  // namespace pdsm

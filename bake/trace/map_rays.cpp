@@ -31,6 +31,14 @@ MapRays::MapRays(const MapGrid& grid, const LightSample& sample)
   if (grid.perspective()) origin_.first[2] = s[2];
 }
 
+CentralRay MapRays::ray(std::int32_t x, std::int32_t y) const {
+  const auto at = [&](const Linear& linear) {
+    return glm::dvec3(linear.first[0] + linear.step[0] * x, linear.first[1] + linear.step[1] * y,
+                      linear.first[2]);
+  };
+  return {at(origin_), at(direction_)};
+}
+
 void MapRays::fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const {
   for (int lane = 0; lane < kMapPacketRays; ++lane) {
     const std::int32_t x = x0 + lane % kPacketEdge, y = y0 + lane / kPacketEdge;

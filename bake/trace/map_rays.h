@@ -30,6 +30,9 @@ class MapRays {
   /// The rays of the packet whose lower texel is (x0, y0), their lanes as ids; none has met anything yet.
   void fill(RTCRayHit16& packet, std::int32_t x0, std::int32_t y0) const;
 
+  /// The ray of texel (x, y), before anything is rounded.
+  [[nodiscard]] CentralRay ray(std::int32_t x, std::int32_t y) const;
+
   /// Change per texel along `axis` of a ray's direction, or of its origin where all are parallel.
   [[nodiscard]] double step(std::size_t axis) const { return direction_.step[axis] + origin_.step[axis]; }
 

@@ -44,6 +44,12 @@ void keep_within(LightSpaceMesh& mesh, const ConvexRegion& region) {
   drop_unused_vertices(mesh);
 }
 
+bool lies_outside(const LightSpaceVolume& volume, const ConvexRegion& region) {
+  std::uint32_t outside = ~std::uint32_t{0};
+  for (const glm::vec3& p : volume.hull.positions) outside &= region.outside_bits(glm::dvec3(p));
+  return outside != 0;
+}
+
 }  // namespace
 
 ConvexRegion map_reach(const LightFace& face, const MapGrid& grid) {
@@ -67,6 +73,7 @@ void keep_within(LightSpaceScene& scene, const ConvexRegion& region) {
     scene.triangles += mesh.triangles.size();
   }
   std::erase_if(scene.meshes, [](const LightSpaceMesh& mesh) { return mesh.triangles.empty(); });
+  std::erase_if(scene.volumes, [&](const LightSpaceVolume& volume) { return lies_outside(volume, region); });
 }
 
 }  // namespace pdsm

@@ -82,9 +82,10 @@ void put_in_order(const LightSpaceScene& scene, std::vector<Hit>& hits) {
   hits.resize(kept);
 }
 
-class LayerTrace {
+/// What the rays of a packet meet of translucent surfaces.
+class SurfaceTrace {
  public:
-  LayerTrace(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample, const MapBias& bias)
+  SurfaceTrace(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample, const MapBias& bias)
       : scene_(scene),
         map_rays_(grid, sample),
         bias_(scene, grid, sample, bias),
@@ -96,12 +97,14 @@ class LayerTrace {
   bool trace(std::int32_t x, std::int32_t y) {
     alignas(64) static constexpr std::array<int, kMapPacketRays> kAll{-1, -1, -1, -1, -1, -1, -1, -1,
                                                                       -1, -1, -1, -1, -1, -1, -1, -1};
+    most_ = 0;
+    for (auto& hits : layer_rays_.hits) hits.clear();
+    for (auto& of_lane : surfaces_) of_lane.clear();
+    if (scene_.translucent() == nullptr) return false;
     map_rays_.fill(packet_, x, y);
     std::fill_n(packet_.ray.mask, kMapPacketRays, kTranslucentMask | kCutoutMask);
     layer_rays_.rays.set_packet(x, y);
-    for (auto& hits : layer_rays_.hits) hits.clear();
     rtcIntersect16(kAll.data(), scene_.translucent(), &layer_rays_.rays.context, &packet_);
-    most_ = 0;
     for (auto& hits : layer_rays_.hits) {
       put_in_order(scene_.geometry(), hits);
       most_ = std::max(most_, hits.size());
@@ -111,12 +114,12 @@ class LayerTrace {
 
   /// Finds the biased depths of what was met.
   void add_biases(SlopeBiasStatistics& statistics) {
-    for (auto& of_lane : surfaces_) of_lane.clear();
     for (std::size_t n = 0; n < most_; ++n) add_nth(n, statistics);
     for (auto& of_lane : surfaces_) std::ranges::stable_sort(of_lane, {}, &MetSurface::depth);
   }
 
-  [[nodiscard]] const std::vector<MetSurface>& surfaces(int lane) const {
+  /// Of a lane, near to far.
+  [[nodiscard]] std::vector<MetSurface>& surfaces(int lane) {
     return surfaces_[static_cast<std::size_t>(lane)];
   }
 
@@ -153,12 +156,39 @@ class LayerTrace {
   std::array<std::vector<MetSurface>, kMapPacketRays> surfaces_;
 };
 
+/// What they meet of volumes.
+class VolumeTrace {
+ public:
+  VolumeTrace(VolumeLayers& layers, const MapGrid& grid, const LightSample& sample)
+      : layers_(layers),
+        map_rays_(grid, sample),
+        begin_(first_caster_depth(grid, sample)),
+        far_(grid.far_depth),
+        origin_z_(grid.perspective() ? sample.position[2] : 0) {}
+
+  /// Adds it, of texel (x, y), to surfaces that are in order; `opaque`: the depth that ends the ray.
+  void add(std::int32_t x, std::int32_t y, float opaque, std::vector<MetSurface>& surfaces) {
+    const auto surface_count = static_cast<std::ptrdiff_t>(surfaces.size());
+    const double end = std::min(static_cast<double>(opaque), far_) - origin_z_;
+    layers_.append(map_rays_.ray(x, y), begin_, end, origin_z_, surfaces);
+    std::inplace_merge(surfaces.begin(), surfaces.begin() + surface_count, surfaces.end(),
+                       [](const MetSurface& a, const MetSurface& b) { return a.depth < b.depth; });
+  }
+
+ private:
+  VolumeLayers& layers_;
+  const MapRays map_rays_;
+  double begin_, far_, origin_z_;
+};
+
 }  // namespace
 
-std::uint64_t trace_layers(const EmbreeScene& scene, const MapGrid& grid, const LightSample& sample,
-                           const MapBias& bias, const PacketMask* mask, const SampleMap& map,
-                           std::uint32_t unit, LayerMap& layers, SlopeBiasStatistics& statistics) {
-  LayerTrace trace(scene, grid, sample, bias);
+std::uint64_t trace_layers(const EmbreeScene& scene, VolumeLayers& volumes, const MapGrid& grid,
+                           const LightSample& sample, const MapBias& bias, const PacketMask* mask,
+                           const SampleMap& map, std::uint32_t unit, LayerMap& layers,
+                           SlopeBiasStatistics& statistics) {
+  SurfaceTrace surface_trace(scene, grid, sample, bias);
+  VolumeTrace volume_trace(volumes, grid, sample);
   std::uint64_t traced = 0;
   const TexelRect& rect = map.rect();
   layers.reset(rect);
@@ -166,11 +196,18 @@ std::uint64_t trace_layers(const EmbreeScene& scene, const MapGrid& grid, const 
     for (std::int32_t x = rect.x0; x < rect.x1; x += kPacketEdge) {
       if (mask != nullptr && !mask->is_wanted(x, y)) continue;
       traced += kMapPacketRays;
-      if (!trace.trace(x, y)) continue;
-      trace.add_biases(statistics);
+      if (surface_trace.trace(x, y)) surface_trace.add_biases(statistics);
+      bool any = false;
+      for (int lane = 0; lane < kMapPacketRays; ++lane) {
+        const std::int32_t i = x + lane % kPacketEdge, j = y + lane / kPacketEdge;
+        volume_trace.add(i, j, map.at(i, j), surface_trace.surfaces(lane));
+        any = any || !surface_trace.surfaces(lane).empty();
+      }
+      if (!any) continue;
       layers.begin_packet(x, y);
       for (int lane = 0; lane < kMapPacketRays; ++lane)
-        layers.append(trace.surfaces(lane), map.at(x + lane % kPacketEdge, y + lane / kPacketEdge), unit);
+        layers.append(surface_trace.surfaces(lane), map.at(x + lane % kPacketEdge, y + lane / kPacketEdge),
+                      unit);
     }
   }
   return traced;

@@ -110,7 +110,8 @@ ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth
                    return apply(world_to_light_, corner).z > emitter_depth_;
                  });
                }),
-      translucent_(scene, casters_) {}
+      translucent_(scene, casters_),
+      volumes_(scene) {}
 
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                std::uint64_t seed) const {
@@ -206,8 +207,17 @@ double ShadowRays::sum_blocked(const Packet& packet, const CasterBias* bias) con
   // Embree marks a blocked ray by a tfar of -inf.
   double blocked = 0;
   for (std::uint32_t i = 0; i < packet.size; ++i)
-    blocked += rays.tfar[i] < 0 ? 1 : translucent_.share_kept(context.crossings[i]);
+    blocked += rays.tfar[i] < 0 ? 1
+               : volumes_.empty()
+                   ? translucent_.share_kept(context.crossings[i])
+                   : 1 - (1 - translucent_.share_kept(context.crossings[i])) * left_by_volumes(packet, i);
   return blocked;
+}
+
+double ShadowRays::left_by_volumes(const Packet& packet, std::uint32_t lane) const {
+  // A distant light's ray ends nowhere, but its volumes do.
+  return volumes_.share_left(packet.world_point, glm::dvec3(packet.direction[lane]), kRayStart,
+                             static_cast<double>(packet.end[lane]));
 }
 
 std::vector<double> ShadowRays::attenuations(std::span<const glm::dvec3> world_points, std::uint32_t samples,

@@ -13,13 +13,14 @@
 #include "truth/caster_bias.h"
 #include "truth/light_points.h"
 #include "truth/translucent_surfaces.h"
+#include "truth/volume_shadows.h"
 #include "truth/world_scene.h"
 
 namespace pdsm {
 
 /// Attenuation by shadow rays: the truth that maps are measured against. It shares no visibility code and
 /// no light samples with the baker. All casters of the scene block, window or not, but for their holes;
-/// translucent ones let their share of each ray through, surface by surface.
+/// translucent ones let their share of each ray through, surface by surface, and volumes theirs.
 class ShadowRays {
  public:
   /// `near_depth` (metres, light space): geometry at or behind 1e-4 of it belongs to the emitter and never
@@ -58,6 +59,8 @@ class ShadowRays {
   [[nodiscard]] double share_blocked(const glm::dvec3& world_point, std::uint32_t count,
                                      const MakePoint& light_point, const CasterBias* bias) const;
   void add_ray(const LightPoint& point, Packet& packet) const;
+  /// What volumes leave of a packet's ray.
+  [[nodiscard]] double left_by_volumes(const Packet& packet, std::uint32_t lane) const;
   /// The sum of what casters take of a packet's rays.
   [[nodiscard]] double sum_blocked(const Packet& packet, const CasterBias* bias) const;
 
@@ -68,6 +71,7 @@ class ShadowRays {
   double emitter_depth_;  ///< light-space z up to which nothing blocks
   WorldScene casters_;
   TranslucentSurfaces translucent_;
+  VolumeShadows volumes_;
 };
 
 }  // namespace pdsm

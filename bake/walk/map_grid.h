@@ -33,7 +33,7 @@ struct GridRatio {
 /// Geometry up to this share of near is the emitter itself, or behind it, and never blocks.
 inline constexpr double kEmitterShare = 1e-4;
 
-/// The points origin + z direction: a PDSM ray by depth.
+/// The points origin + z direction: a PDSM ray by depth, or a map's by depth behind its sample.
 struct CentralRay {
   glm::dvec3 origin{0}, direction{0, 0, 1};
 };

@@ -64,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{R"({"lights": {}})", "level.scene.json:lights: must be an array"},
         Fault{R"({"geometry": 1})", "level.scene.json:geometry: must be an array"},
         Fault{R"({"volumes": {}})", "level.scene.json:volumes: must be an array"},
-        Fault{R"({"volumes": [{"file": "smoke.vdb"}]})", "level.scene.json:volumes: not supported yet"},
+        Fault{R"({"volumes": [{"file": "smoke.vdb"}]})",
+              "level.scene.json:volumes[0].file: smoke.vdb: no such file"},
         Fault{R"({"lights": [7]})", "level.scene.json:lights[0]: must be an object"},
         Fault{R"({"geometry": ["a.obj"]})", "level.scene.json:geometry[0]: must be an object"}));
 

@@ -48,6 +48,13 @@ TEST(Schema, ListsTheKeysOfGeometry) {
   EXPECT_EQ(keys_told(folder.fault_of(R"({"geometry": [{"?": 1}]})")), listed);
 }
 
+TEST(Schema, ListsTheKeysOfVolumes) {
+  const SceneFolder folder;
+  Keys listed;
+  add_keys(listed, schema()["$defs"]["volume"]["properties"]);
+  EXPECT_EQ(keys_told(folder.fault_of(R"({"volumes": [{"?": 1}]})")), listed);
+}
+
 TEST(Schema, ListsTheKeysOfPartRules) {
   const SceneFolder folder;
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

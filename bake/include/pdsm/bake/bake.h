@@ -57,6 +57,9 @@ struct BakeOptions {
   std::uint32_t mip_levels = 0;   ///< levels above 0 (penumbra_map.h, FunctionImage), 0 .. kMostMipLevels;
                                   ///< no more are made than the map's smaller side can be halved
   bool unrounded_values = false;  ///< for measuring: the same pieces, values in 1/256 of the codes they had
+  /// For measuring: steps in which a light sample's ray loses its light in volumes, 1 .. 256. 0: as epsilon
+  /// and N need (docs/maths.md, "Volumes").
+  std::uint32_t volume_steps = 0;
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes that baking may take beyond scene and BVH
   std::uint32_t threads = 0;                      ///< 0: all processors
   std::uint64_t seed = 0;

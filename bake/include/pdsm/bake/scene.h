@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pdsm/bake/volume.h"
 #include "pdsm/format/penumbra_map.h"
 
 /// A scene in memory: what casts, what receives, what lights. Right-handed, y up, metres, degrees. Plain
@@ -137,6 +138,7 @@ void check_emission(const Light& light);
 struct Scene {
   std::string source;  ///< path of the scene file, for messages; may be empty
   std::vector<Geometry> geometry;
+  std::vector<Volume> volumes;
   std::vector<Light> lights;
   std::uint64_t content_hash = 0;  ///< XXH3 of scene file and all files it names, in order; 0 in memory
   std::vector<std::filesystem::path> files;  ///< that were read for it, in order, each once
