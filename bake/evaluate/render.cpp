@@ -13,6 +13,7 @@
 #include "evaluate/colour.h"
 #include "evaluate/heat_map.h"
 #include "evaluate/studio.h"
+#include "evaluate/volume_picture.h"
 #include "pdsm/runtime/look_up.h"
 #include "truth/shadow_rays.h"
 
@@ -31,6 +32,12 @@ class Illumination {
     }
   }
 
+  /// Light that would arrive from all sides without casters.
+  [[nodiscard]] glm::vec3 unshadowed(const glm::dvec3& p) const {
+    const glm::dvec3& centre = studio_.points[4];
+    return studio_.colour *
+           irradiance(studio_, p, glm::vec3(studio_.distant ? centre : glm::normalize(centre - p)));
+  }
   /// Light that would arrive on a surface without casters.
   [[nodiscard]] glm::vec3 unshadowed(const SurfacePoint& point) const {
     return studio_.colour * irradiance(studio_, point.position, point.normal);
@@ -62,6 +69,7 @@ class Renderer {
   Renderer(const Scene& scene, std::span<const PictureLight> lights, const RenderOptions& options)
       : options_(options),
         picture_(scene),
+        volumes_(scene),
         focus_(find_focus(scene)),
         camera_(options.camera ? *options.camera : default_camera(scene, picture_, focus_)),
         rays_(camera_, options.width, options.height) {
@@ -100,10 +108,28 @@ class Renderer {
   [[nodiscard]] Sample trace(double x, double y) const {
     const glm::dvec3 direction = rays_.direction(x, y);
     const std::optional<SurfacePoint> point = picture_.trace(camera_.eye, direction);
-    if (!point) return {studio_background(direction)};
-    Sample sample = shade(*point);
-    sample.light = glm::mix(sample.light, studio_background(direction), studio_fade(focus_, point->position));
+    Sample sample{studio_background(direction)};
+    double distance = std::numeric_limits<double>::infinity();
+    if (point) {
+      sample = shade(*point);
+      sample.light =
+          glm::mix(sample.light, studio_background(direction), studio_fade(focus_, point->position));
+      distance = glm::length(point->position - camera_.eye);
+    }
+    sample.light = volumes_.over(camera_.eye, direction, distance, sample.light,
+                                 [this](const glm::dvec3& p) { return arriving(p); });
     return sample;
+  }
+
+  /// Light that arrives in a volume.
+  [[nodiscard]] glm::vec3 arriving(const glm::dvec3& p) const {
+    glm::vec3 sum = 0.5F * (kStudioBounce + kStudioSky);
+    for (const auto& light : lights_) {
+      const double v =
+          options_.source == ShadowSource::truth ? light->true_attenuation(p) : light->map_attenuation(p);
+      sum += light->unshadowed(p) * static_cast<float>(1 - v);
+    }
+    return sum;
   }
 
   [[nodiscard]] Sample shade(const SurfacePoint& point) const {
@@ -134,6 +160,7 @@ class Renderer {
 
   RenderOptions options_;
   PictureScene picture_;
+  VolumePicture volumes_;
   Focus focus_;
   Camera camera_;
   CameraRays rays_;

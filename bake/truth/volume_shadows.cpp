@@ -13,11 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a ray is within a box; begin < end, or it misses.
-struct Interval {
-  double begin, end;
-};
-
 /// Places in t, sorted, where a ray crosses the lattice planes between `begin` and `end`.
 class Crossings {
  public:
@@ -53,8 +48,8 @@ struct VolumeShadows::Ray {
   glm::dvec3 origin, direction, inverse;
   double begin, end;
 
-  [[nodiscard]] Interval within(const glm::dvec3& low, const glm::dvec3& high) const {
-    Interval inside{begin, end};
+  [[nodiscard]] Way within(const glm::dvec3& low, const glm::dvec3& high) const {
+    Way inside{begin, end};
     for (int axis = 0; axis < 3; ++axis) {
       if (direction[axis] == 0) {
         // Along a face, the ray is in one of the two boxes.
@@ -164,7 +159,7 @@ double VolumeShadows::integral(const Tree& tree, const Ray& ray) {
   while (count > 0) {
     const std::uint32_t number = waiting[--count];
     const Node& node = tree.nodes[number];
-    const Interval inside = ray.within(node.low, node.high);
+    const Way inside = ray.within(node.low, node.high);
     if (!(inside.begin < inside.end)) continue;
     if (node.count == 1) {
       sum += integral(tree.boxes[node.first], ray, inside.begin, inside.end);
@@ -176,15 +171,28 @@ double VolumeShadows::integral(const Tree& tree, const Ray& ray) {
   return sum;
 }
 
+VolumeShadows::Ray VolumeShadows::ray_in(const Tree& tree, const glm::dvec3& from, const glm::dvec3& along,
+                                         double begin, double end) {
+  const glm::dvec3 direction = glm::dmat3(tree.world_to_index) * along;
+  return {glm::dvec3(tree.world_to_index * glm::dvec4(from, 1.0)), direction, 1.0 / direction, begin, end};
+}
+
+VolumeShadows::Way VolumeShadows::way(const glm::dvec3& from, const glm::dvec3& along, double begin,
+                                      double end) const {
+  Way all{end, begin};
+  for (const Tree& tree : volumes_) {
+    const Way one = ray_in(tree, from, along, begin, end).within(tree.nodes[0].low, tree.nodes[0].high);
+    if (one.begin < one.end) all = {std::min(all.begin, one.begin), std::max(all.end, one.end)};
+  }
+  return all;
+}
+
 double VolumeShadows::share_left(const glm::dvec3& from, const glm::dvec3& along, double begin,
                                  double end) const {
   double optical_depth = 0;
-  for (const Tree& tree : volumes_) {
-    const glm::dvec3 direction = glm::dmat3(tree.world_to_index) * along;
-    const Ray ray{glm::dvec3(tree.world_to_index * glm::dvec4(from, 1.0)), direction, 1.0 / direction, begin,
-                  end};
-    optical_depth += tree.extinction * glm::length(along) * integral(tree, ray);
-  }
+  for (const Tree& tree : volumes_)
+    optical_depth +=
+        tree.extinction * glm::length(along) * integral(tree, ray_in(tree, from, along, begin, end));
   return std::exp(-optical_depth);
 }
 

@@ -18,6 +18,12 @@ class VolumeShadows {
 
   [[nodiscard]] bool empty() const { return volumes_.empty(); }
 
+  /// Where the ray from + t along, begin <= t <= end, may be in volumes; begin < end, or nowhere.
+  struct Way {
+    double begin, end;
+  };
+  [[nodiscard]] Way way(const glm::dvec3& from, const glm::dvec3& along, double begin, double end) const;
+
   /// The share of its light that is left to the ray from + t along between t = begin and end; in the world,
   /// metres.
   [[nodiscard]] double share_left(const glm::dvec3& from, const glm::dvec3& along, double begin,
@@ -44,6 +50,8 @@ class VolumeShadows {
   };
   struct Ray;
 
+  static Ray ray_in(const Tree& tree, const glm::dvec3& from, const glm::dvec3& along, double begin,
+                    double end);
   static std::vector<Box> make_boxes(const DensityGrid& grid);
   static std::uint32_t make_nodes(Tree& tree, std::uint32_t first, std::uint32_t count);
   static double integral(const Tree& tree, const Ray& ray);

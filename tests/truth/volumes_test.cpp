@@ -7,6 +7,7 @@
 
 #include "../bake/support/volumes.h"
 #include "evaluate/verify.h"
+#include "evaluate/volume_picture.h"
 #include "pdsm/bake/bake.h"
 #include "plates.h"
 #include "truth/shadow_rays.h"
@@ -122,6 +123,29 @@ TEST(VerifyOfVolumes, ABakeIsAsCloseAsItsSettingsPromise) {
   EXPECT_GT(result.shadowed_points, 100U);
   EXPECT_LT(result.mean_abs_error, 0.01);
   EXPECT_LT(std::abs(result.bias), 0.005);
+}
+
+/// Under even light, what is scattered is one share of what is taken, and what is behind keeps the rest.
+TEST(PictureOfVolumes, ScatteredAndLeftAreAllThereIs) {
+  const Slab slab;
+  const auto seen = [&](double extinction, double distance, float behind) {
+    Scene scene;
+    scene.volumes = {slab.volume(extinction)};
+    return VolumePicture(scene)
+        .over({0, 0, 0}, {0, 0, 1}, distance, glm::vec3(behind),
+              [](const glm::dvec3&) { return glm::vec3(1); })
+        .x;
+  };
+  const float opaque = seen(100, 9, 0);
+  EXPECT_GT(opaque, 0.3F);
+  for (const double extinction : {0.2, 1.0, 3.0}) {
+    const auto kept = static_cast<float>(std::exp(-extinction * slab.integral(9)));
+    // What is behind 1 / 512 of the light is not looked for.
+    EXPECT_NEAR(seen(extinction, 9, 0), opaque * (1 - kept), 1.0 / 256);
+    EXPECT_NEAR(seen(extinction, 9, 2) - seen(extinction, 9, 0), 2 * kept, 1e-5);
+    EXPECT_EQ(seen(extinction, 2.5, 0.5F), 0.5F);
+    EXPECT_LT(seen(extinction, 4, 0), seen(extinction, 9, 0));
+  }
 }
 
 }  // namespace
