@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "cli/scene_change.h"
 #include "cli/streams.h"
 #include "cli/verify_report.h"
+#include "evaluate/light_model.h"
 #include "evaluate/window_errors.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/error.h"
@@ -95,11 +97,13 @@ int run_verify(const VerifyCommand& command) {
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);
   const ProbedTruth truth = probe_truth(map, scene, light, options);
-  VerifyReport report{verify(map, truth), measure_atty_error(map, scene, light, options), {}};
+  VerifyReport report{verify(map, truth), measure_atty_error(map, scene, light, options), {}, {}};
   if (report.result.points < options.points) {
     write_warning(
         fmt::format("only {} of {} points found in the window", report.result.points, options.points));
   }
+  if (is_sphere(light) && !command.no_budget)
+    report.light = measure_light_model(scene, light, truth, options);
   if (bake_options) report.budget = measure_error_budget(map, scene, light, *bake_options, truth);
   if (!command.heat_map.empty()) write_heat_map(command, map, scene, light);
   write_result(command.json ? verify_json(report) : verify_text(report));

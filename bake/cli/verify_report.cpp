@@ -71,12 +71,13 @@ std::string verify_json(const VerifyReport& report) {
   Json json = verify_result_json(report.result);
   json["atty_error"] = report.atty_error;
   if (report.budget) json["budget"] = budget_json(*report.budget);
+  if (report.light) json["budget"]["light"] = report.light->rms;
   return json.dump(2) + "\n";
 }
 
 std::string verify_text(const VerifyReport& report) {
   const VerifyResult& result = report.result;
-  const std::string text = fmt::format(
+  std::string text = fmt::format(
       "points                {} ({} on surfaces, {} in shadow, {} past the end; {} buried ones left out)\n"
       "mean abs error        {:.5f} (on surfaces {:.5f}, in free space {:.5f})\n"
       "rms error             {:.5f}\n"
@@ -88,6 +89,9 @@ std::string verify_text(const VerifyReport& report) {
       result.points, result.surface_points, result.shadowed_points, result.past_end, result.buried,
       result.mean_abs_error, result.surface_error, result.free_error, result.rms_error, result.p99_error,
       result.max_error, result.bias, result.truth_standard_error, report.atty_error);
+  if (report.light)
+    text += fmt::format("light model           rms {:.5f}, mean abs {:.5f} (with the truth's own error)\n",
+                        report.light->rms, report.light->mean_abs);
   return report.budget ? text + budget_text(*report.budget) : text;
 }
 

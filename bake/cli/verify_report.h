@@ -15,6 +15,7 @@ struct VerifyReport {
   VerifyResult result;
   double atty_error = 0;
   std::optional<ErrorBudget> budget;
+  std::optional<ErrorPart> light;  ///< of sphere lights: what their model changes
 };
 
 [[nodiscard]] nlohmann::ordered_json verify_result_json(const VerifyResult& result);

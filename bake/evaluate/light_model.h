@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "evaluate/error_budget.h"
+
+namespace pdsm {
+
+/// What a sphere light's model, the ball that its samples are taken from (docs/maths.md), changes against
+/// what points see of the sphere; with the truth's own error. `truth` is of probe_truth() with `options`.
+/// Uses all threads; the result does not depend on their number.
+[[nodiscard]] ErrorPart measure_light_model(const Scene& scene, const Light& light, const ProbedTruth& truth,
+                                            const VerifyOptions& options);
+
+}  // namespace pdsm
