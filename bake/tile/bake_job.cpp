@@ -203,10 +203,8 @@ TileInput BakeJob::tile_input(std::uint32_t sample_stride) const {
                   bound_samples(samples),
                   caster_clip_depth(fitted, face, !options.light_samples.empty()),
                   kDepthRounding * grid.far_depth,
-                  casters,
-                  volumes,
-                  {},
-                  {}};
+                  casters};
+  input.volumes = volumes;
   input.finds_cells = finds_cells();
   if (!shift_law() && finds_cells()) input.light_hull = map_reach(face, grid);
   for (std::uint32_t level = 1; level <= mip_levels; ++level)

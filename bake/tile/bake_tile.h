@@ -41,8 +41,8 @@ struct TileInput {
   bool finds_cells = true;         ///< rays that nothing can darken are left out (tile/shadow_cells.h)
   /// Of a view whose samples lie out of its plane: what can block. None: the shift law holds.
   std::optional<ConvexRegion> light_hull = {};
-  std::span<const VolumeField> volumes;       ///< that map rays march through
-  VolumeSteps volume_steps;                   ///< of `samples`, where there are volumes
+  std::span<const VolumeField> volumes = {};  ///< that map rays march through
+  VolumeSteps volume_steps = {};              ///< of `samples`, where there are volumes
   std::vector<FitRules> level_rules = {};     ///< of mip levels 1, 2, ...; none where none are made
   const BlockInputs* block_inputs = nullptr;  ///< for the keys of blocks; null: they get none
 

@@ -146,7 +146,7 @@ void list_coding(const BakeFacts& facts, const BlockCounts& done, FeatureList& l
   deep.depth_bits = 32;
   fine.value_bits = 16;
   list.left_out("colour", "the light and all casters are grey: one channel",
-                counted(2 * 4 * coding.words_per_vertex() * done.pieces, "bytes of vertices");
+                counted(2 * 4 * coding.words_per_vertex() * done.pieces, "bytes of vertices"));
   list.either(coding.depth_bits == 32, "depths of 32 bits", "the depth tolerance needs 32 bits",
               "the depth tolerance needs 16 bits", vertex_bytes(coding, deep, done.pieces));
   list.either(coding.value_bits > 8, "values beyond 8 bits",

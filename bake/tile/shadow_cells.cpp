@@ -124,7 +124,7 @@ class CellMarker {
 
   /// What a volume darkens, it does through its hull, unless light begins within.
   void mark_volume(const LightSpaceVolume& volume) {
-    if (volume.begins_before(std::max(kEmitterShare * input_.grid.far_depth, input_.light_bounds.max_z)))
+    if (volume.begins_before(std::max(kEmitterShare * input_.grid.far_depth, input_.light.max_z)))
       std::ranges::fill(cells_.dark, std::uint8_t{1});
     else
       mark_mesh(volume.hull);
