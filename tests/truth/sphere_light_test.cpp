@@ -99,7 +99,7 @@ TEST(SphereLight, NothingIsKeptFromPointsWithin) {
 class SixSquares : public ::testing::Test {
  protected:
   static constexpr float kHalf = 0.25F, kAway = 1.5F;
-  static constexpr std::uint32_t kSize = 128, kSamples = 512;
+  static constexpr std::uint32_t kSize = 256, kSamples = 512;
   static constexpr double kEpsilon = 0.01;
 
   static glm::vec3 centre(int axis, float sign) {
@@ -125,13 +125,13 @@ class SixSquares : public ::testing::Test {
     return kMap;
   }
   /// What a look-up may be off at distance z along an axis: the fit; the samples, as many as a random set's
-  /// two standard errors; and two texels (one of look-up, one of map) of 2/126 on the penumbra, whose
-  /// steepest slope is that of a disk of diameter 2 r at its middle: 4 / pi of the mean one. As seen from z,
-  /// the light's edge is 2 r (z - d) / d wide behind an edge at d.
+  /// two standard errors; and a texel of the look-up and half a one of the maps, of 2/254, on the penumbra,
+  /// whose steepest slope is that of a disk of diameter 2 r at its middle: 4 / pi of the mean one. As seen
+  /// from z, the light's edge is 2 r (z - d) / d wide behind an edge at d.
   static double tolerance(double z) {
     const double penumbra = 2 * kRadius * (z - static_cast<double>(kAway)) / static_cast<double>(kAway);
     return kEpsilon + 1 / std::sqrt(static_cast<double>(kSamples)) +
-           4 / std::numbers::pi * 2 * (2.0 / 126) * z / penumbra;
+           4 / std::numbers::pi * 1.5 * (2.0 / 254) * z / penumbra;
   }
 };
 
@@ -159,7 +159,7 @@ TEST_F(SixSquares, NeighbouringViewsAgreeAtTheirSeams) {
     scene.geometry.push_back(square(std::abs(c.z) > 0 ? 2 : 1, c, 0.3F));
   BakeOptions options;
   options.samples = kSamples;
-  options.width = options.height = kSize;
+  options.width = options.height = 128;
   options.epsilon = kEpsilon;
   options.receivers = Receivers::all;
   Light light = bulb();
