@@ -69,8 +69,7 @@ std::vector<glm::ivec3> occupied_cells(const DensityGrid& grid) {
     }
   }
   std::ranges::sort(cells, is_before);
-  const auto repeated = std::ranges::unique(cells);
-  cells.erase(repeated.begin(), repeated.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
 }
 
