@@ -37,12 +37,16 @@ openvdb::GridBase::Ptr find_grid(const openvdb::GridPtrVec& grids, const std::st
 
 openvdb::GridPtrVec read_grids(std::string bytes) {
   std::istringstream stream(std::move(bytes), std::ios::binary);
-  // Loaded at once: later, the stream would be gone.
-  openvdb::io::Stream file(stream, false);
-  // It goes on behind the end of a file with whatever it had.
-  if (stream.fail()) throw FormatFault("is no OpenVDB file that can be read: it ends too soon");
-  const auto grids = file.getGrids();
-  return grids ? *grids : openvdb::GridPtrVec{};
+  // Behind the end of a file, OpenVDB would go on with whatever memory holds, sizes included.
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    // Loaded at once: later, the stream would be gone.
+    openvdb::io::Stream file(stream, false);
+    const auto grids = file.getGrids();
+    return grids ? *grids : openvdb::GridPtrVec{};
+  } catch (const std::ios::failure&) {
+    throw FormatFault("is no OpenVDB file that can be read: it ends too soon");
+  }
 }
 
 /// OpenVDB's matrices take rows from the left.
