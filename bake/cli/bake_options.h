@@ -38,7 +38,7 @@ struct BakeCommand {
 /// How progress is told: as asked for, else as suits stderr.
 [[nodiscard]] ProgressStyle progress_style(const BakeCommand& command);
 
-/// Puts the options on `sub`; they write to `command`, which must outlive parsing.
+/// Adds the options to `takes`; they write to `command`, which must outlive parsing.
 void add_bake_options(Options& takes, BakeCommand& command);
 
 /// The options for one light. With goals, the light's own samples and resolution do not count.
