@@ -16,6 +16,7 @@
 #include "cli/streams.h"
 #include "pdsm/bake/scene_file.h"
 #include "pdsm/format/error.h"
+#include "scene/scene_channels.h"
 #include "tradeoff/gnuplot.h"
 #include "tradeoff/tables.h"
 #include "tradeoff/write_results.h"
@@ -97,6 +98,8 @@ int run_tradeoff(TradeoffCommand command) {
   const Light& light = choose_light(scene, command.light);
   if (view_count(light) > 1)
     throw Error(Failure::usage, "--light", "lights of several faces can't be swept: " + light.name);
+  if (may_be_coloured(scene, light))
+    throw Error(Failure::usage, "--light", "coloured shadows can't be swept: " + light.name);
   command.options.folder = folder;
   set_options(command.options, light);
 

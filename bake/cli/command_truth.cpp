@@ -29,8 +29,11 @@ int run_truth(const TruthOptions& options) {
   const ShadowRays rays(scene, light, fit_view(scene, light, 64, 64).view.near_depth);
   answer_point_lines([&](std::span<const glm::dvec3> points, std::string& lines) {
     // One seed for all, so that a point's answer does not depend on its line.
-    for (const double attenuation : rays.attenuations(points, options.samples, 0, true)) {
-      fmt::format_to(std::back_inserter(lines), "{:.9g}\n", attenuation);
+    for (const auto& [red, green, blue] : rays.rgbs(points, options.samples, 0, true)) {
+      if (rays.is_coloured())
+        fmt::format_to(std::back_inserter(lines), "{:.9g} {:.9g} {:.9g}\n", red, green, blue);
+      else
+        fmt::format_to(std::back_inserter(lines), "{:.9g}\n", red);
     }
   });
   return kExitOk;
@@ -41,7 +44,9 @@ int run_truth(const TruthOptions& options) {
 void add_truth_command(CommandLine& line) {
   auto options = std::make_shared<TruthOptions>();
   Options takes = line.add_command(
-      "truth", "Attenuation by shadow rays: world points \"x y z\" on stdin, one number a line on stdout",
+      "truth",
+      "Attenuation by shadow rays: world points \"x y z\" on stdin, one number a line on stdout; three, "
+      "red, green and blue, where light or casters are coloured",
       [options] { return run_truth(*options); });
   takes.file("SCENE", options->scene, "Scene file");
   takes.text("--light", "NAME", options->light, "Light; needed when the scene has several");

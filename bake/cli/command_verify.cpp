@@ -37,10 +37,15 @@ bool is_for_surfaces(const PenumbraMap& map) {
   return options != metadata.end() && options->is_object() && options->value("receivers", "") == "surfaces";
 }
 
+/// Maps of several views or channels, for which there is no budget.
+bool has_many_jobs(const PenumbraMap& map) {
+  return map.views.size() > 1 || map.channels > 1;
+}
+
 /// What the budget needs for baking again; nothing with --no-budget.
 std::optional<BakeOptions> options_for_budget(const VerifyCommand& command, const PenumbraMap& map,
                                               const Scene& scene, const Light& light) {
-  if (command.no_budget || map.views.size() > 1) return std::nullopt;
+  if (command.no_budget || has_many_jobs(map)) return std::nullopt;
   const auto refuse = [&command](const std::string& field, const std::string& reason) {
     throw Error(Failure::input, command.map + ":" + field, reason + ": only --no-budget can measure it");
   };
@@ -92,7 +97,7 @@ int run_verify(const VerifyCommand& command) {
   const Light& light = light_of_map(scene, map, 0, command.map);
   if (!command.heat_map.empty() && map.views.size() > 1)
     throw Error(Failure::usage, "--heat-map", "only maps of one view have a window to draw");
-  if (command.no_budget || map.views.size() > 1) warn_if_changed(scene, light, map, command.map);
+  if (command.no_budget || has_many_jobs(map)) warn_if_changed(scene, light, map, command.map);
   const std::optional<BakeOptions> bake_options = options_for_budget(command, map, scene, light);
   VerifyOptions options = command.options;
   options.free_space = !is_for_surfaces(map);

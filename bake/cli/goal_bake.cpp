@@ -8,6 +8,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress_line.h"
 #include "pdsm/format/error.h"
+#include "scene/scene_channels.h"
 
 namespace pdsm {
 
@@ -15,6 +16,8 @@ ChosenBake bake_to_goals(const BakeCommand& command, const Scene& scene, const L
                          const BakeOptions& options, std::optional<double> time_budget) {
   if (view_count(light) > 1)
     throw Error(Failure::usage, "--target-error", "goals are not for lights of several faces: " + light.name);
+  if (may_be_coloured(scene, light))
+    throw Error(Failure::usage, "--target-error", "goals are not for coloured shadows: " + light.name);
   std::optional<ProgressLine> line;
   const PolledInterrupts interrupts;
   TrialCallbacks callbacks;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/inputs.h"
+#include "scene/scene_channels.h"
 
 namespace pdsm {
 namespace {
@@ -64,8 +65,10 @@ std::optional<BakeOptions> recorded_options(const PenumbraMap& map, const Light&
   } catch (const std::exception&) {
     return std::nullopt;
   }
+  // A map of a coloured light tells the samples of red.
+  const Light sampled = is_coloured(light) ? channel_light(light, 0) : light;
   const bool own_samples =
-      make_light_samples(light, options.samples, options.points, options.seed) != map.samples;
+      make_light_samples(sampled, options.samples, options.points, options.seed) != map.samples;
   if (own_samples) options.light_samples = map.samples;
   return map.samples.empty() ? std::nullopt : std::optional(options);
 }

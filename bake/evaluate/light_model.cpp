@@ -23,7 +23,7 @@ ErrorPart measure_light_model(const Scene& scene, const Light& light, const Prob
 #pragma omp parallel for schedule(dynamic, 8)
   for (std::size_t n = 0; n < changes.size(); ++n)
     changes[n] =
-        rays.model_attenuation(truth.points[n], options.samples, hash_bits(seed, n)) - truth.value(n);
+        brightness(rays.model_rgb(truth.points[n], options.samples, hash_bits(seed, n))) - truth.value(n);
   ErrorPart part;
   for (const double change : changes) {
     part.rms += change * change;

@@ -6,7 +6,6 @@
 
 #include "evaluate/probe_points.h"
 #include "truth/random.h"
-#include "truth/shadow_rays.h"
 
 namespace pdsm {
 namespace {
@@ -43,8 +42,8 @@ ProbedTruth probe_truth(const PenumbraMap& map, const Scene& scene, const Light&
 
   const ShadowRays rays(scene, light, map.views.front().near_depth);
   const std::uint32_t half = std::max(1U, options.samples / 2);
-  truth.a = rays.attenuations(truth.points, half, hash_bits(options.seed, kTruthA));
-  truth.b = rays.attenuations(truth.points, half, hash_bits(options.seed, kTruthB));
+  truth.a = rays.rgbs(truth.points, half, hash_bits(options.seed, kTruthA));
+  truth.b = rays.rgbs(truth.points, half, hash_bits(options.seed, kTruthB));
   return truth;
 }
 

@@ -42,12 +42,15 @@ class Illumination {
   [[nodiscard]] glm::vec3 unshadowed(const SurfacePoint& point) const {
     return studio_.colour * irradiance(studio_, point.position, point.normal);
   }
-  [[nodiscard]] double map_attenuation(const glm::dvec3& p) const {
-    return static_cast<double>(look_up_->at({p.x, p.y, p.z}, Filter::bilinear).attenuation);
+  /// Of red, green and blue.
+  [[nodiscard]] glm::vec3 map_attenuation(const glm::dvec3& p) const {
+    const auto [red, green, blue] = look_up_->at({p.x, p.y, p.z}, Filter::bilinear).rgb;
+    return {red, green, blue};
   }
-  [[nodiscard]] double true_attenuation(const glm::dvec3& p) const {
+  [[nodiscard]] glm::vec3 true_attenuation(const glm::dvec3& p) const {
     // One seed for all points: what error there is varies as smoothly as the scene, and is no noise.
-    return rays_->attenuation(p, truth_samples_, 0);
+    const auto [red, green, blue] = rays_->rgb(p, truth_samples_, 0);
+    return glm::vec3(glm::dvec3(red, green, blue));
   }
 
  private:
@@ -125,9 +128,9 @@ class Renderer {
   [[nodiscard]] glm::vec3 arriving(const glm::dvec3& p) const {
     glm::vec3 sum = 0.5F * (kStudioBounce + kStudioSky);
     for (const auto& light : lights_) {
-      const double v =
+      const glm::vec3 v =
           options_.source == ShadowSource::truth ? light->true_attenuation(p) : light->map_attenuation(p);
-      sum += light->unshadowed(p) * static_cast<float>(1 - v);
+      sum += light->unshadowed(p) * (1.0F - v);
     }
     return sum;
   }
@@ -139,8 +142,8 @@ class Renderer {
       const glm::vec3 full = light->unshadowed(point);
       // A surface that is turned away from a light is dark without any shadow.
       if (full == glm::vec3(0)) continue;
-      const double v = attenuation(*light, point.position, sample);
-      arriving += full * static_cast<float>(1 - v);
+      const glm::vec3 v = attenuation(*light, point.position, sample);
+      arriving += full * (1.0F - v);
       sample.shade += full.y / kStudioKeyStrength;
     }
     sample.shade = std::clamp(0.25F + 0.75F * sample.shade, 0.0F, 1.0F);
@@ -148,13 +151,15 @@ class Renderer {
     return sample;
   }
 
-  /// V to shade with; keeps the difference that is farthest from 0 over the lights.
-  [[nodiscard]] double attenuation(const Illumination& light, const glm::dvec3& p, Sample& sample) const {
+  /// V to shade with; keeps the difference that is farthest from 0 over the lights and channels.
+  [[nodiscard]] glm::vec3 attenuation(const Illumination& light, const glm::dvec3& p, Sample& sample) const {
     if (options_.source == ShadowSource::truth) return light.true_attenuation(p);
-    const double by_map = light.map_attenuation(p);
+    const glm::vec3 by_map = light.map_attenuation(p);
     if (options_.source == ShadowSource::map) return by_map;
-    const auto difference = static_cast<float>(by_map - light.true_attenuation(p));
-    if (!(std::abs(difference) <= std::abs(sample.difference))) sample.difference = difference;
+    const glm::vec3 difference = by_map - light.true_attenuation(p);
+    for (int channel = 0; channel < 3; ++channel)
+      if (!(std::abs(difference[channel]) <= std::abs(sample.difference)))
+        sample.difference = difference[channel];
     return by_map;
   }
 

@@ -10,6 +10,16 @@
 namespace pdsm {
 namespace {
 
+/// Of the channel that is farthest off.
+double farthest_error(const LookUpResult& found, const ProbedTruth& truth, std::size_t point) {
+  double farthest = 0;
+  for (std::size_t channel = 0; channel < found.rgb.size(); ++channel) {
+    const double error = static_cast<double>(found.rgb[channel]) - truth.value(point, channel);
+    if (std::abs(error) > std::abs(farthest)) farthest = error;
+  }
+  return farthest;
+}
+
 /// Errors at all probes; counts what the look-ups said.
 std::vector<double> look_up_errors(const PenumbraMap& map, const ProbedTruth& truth, VerifyResult& result) {
   const PenumbraLookUp look_up(map);
@@ -17,7 +27,7 @@ std::vector<double> look_up_errors(const PenumbraMap& map, const ProbedTruth& tr
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const glm::dvec3& p = truth.points[i];
     const LookUpResult found = look_up.at({p.x, p.y, p.z}, Filter::bilinear);
-    errors[i] = static_cast<double>(found.attenuation) - truth.value(i);
+    errors[i] = farthest_error(found, truth, i);
     result.past_end += found.status == PointStatus::past_end ? 1 : 0;
   }
   return errors;

@@ -9,7 +9,8 @@
 
 namespace pdsm {
 
-/// How far a map is from the truth. An error is look-up (bilinear) minus truth. Means are sums over all
+/// How far a map is from the truth. An error is look-up (bilinear) minus truth, of three
+/// channels that which is farthest off. Means are sums over all
 /// points divided by the number of points in true shadow, so that false shadow on lit points counts in full
 /// and lit points dilute nothing.
 struct VerifyResult {

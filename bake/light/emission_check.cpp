@@ -16,6 +16,12 @@ const char* emission_fault(const EmissionImage& image) {
   if (!std::ranges::all_of(image.luminance, [](float x) { return std::isfinite(x) && x >= 0; }))
     return "must be finite and not negative";
   if (std::ranges::all_of(image.luminance, [](float x) { return x == 0; })) return "is black";
+  const auto is_emission = [](const glm::vec3& rgb) {
+    return std::isfinite(rgb.r + rgb.g + rgb.b) && rgb.r >= 0 && rgb.g >= 0 && rgb.b >= 0;
+  };
+  if (!image.colour.empty() && image.colour.size() != image.luminance.size())
+    return "must have as many colours as values of luminance";
+  if (!std::ranges::all_of(image.colour, is_emission)) return "must have colours that are not negative";
   return nullptr;
 }
 

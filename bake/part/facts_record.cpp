@@ -11,11 +11,9 @@
 namespace pdsm {
 namespace {
 
-/// Bakes make maps of one channel.
-constexpr std::uint32_t kChannels = 1;
-
 /// Views that a light may have.
 constexpr std::uint32_t kMostViews = 6;
+constexpr std::uint32_t kMostChannels = 3;
 
 /// Bits of FactsRecord::flags.
 enum FactFlag : std::uint32_t {
@@ -69,7 +67,8 @@ bool is_sound(const FactsRecord& record) {
   // Infinite where no slope is limited.
   if (std::isnan(record.slope_limit_from) || record.slope_limit_from < 0) return false;
   return record.projection <= static_cast<std::uint32_t>(Projection::orthographic) &&
-         record.walk <= static_cast<std::uint32_t>(Walk::exact) && record.channels == kChannels &&
+         record.walk <= static_cast<std::uint32_t>(Walk::exact) &&
+         (record.channels == 1 || record.channels == kMostChannels) &&
          record.receivers <= static_cast<std::uint32_t>(Receivers::surfaces) && record.flags <= kAllFlags;
 }
 
@@ -84,6 +83,7 @@ BakeFacts facts_of(const FactsRecord& record) {
   view.width = record.width;
   view.height = record.height;
   facts.fitted.receivers_outside = record.receivers_outside;
+  facts.channels = record.channels;
   facts.coding = {record.depth_bits, record.value_bits, record.value_max};
   facts.mip_levels = record.mip_levels;
   facts.mip_levels_asked = record.mip_levels_asked;
@@ -108,16 +108,28 @@ bool makes_a_map(const BakeFacts& facts) {
   return facts.mip_levels <= std::min(most, kMostMipLevels);
 }
 
-/// Views after the first. All have its levels, its coding and its ends.
-bool read_more_views(std::uint32_t count, ByteReader& reader, MapFacts& facts) {
+bool is_same_view(const BakeFacts& a, const BakeFacts& b) {
+  const View &va = a.fitted.view, &vb = b.fitted.view;
+  return va.world_to_view.rotation == vb.world_to_view.rotation &&
+         va.world_to_view.translation == vb.world_to_view.translation && va.projection == vb.projection &&
+         va.window == vb.window && va.near_depth == vb.near_depth && va.far_depth == vb.far_depth &&
+         va.width == vb.width && va.height == vb.height;
+}
+
+/// Of the channels and views after the first. All have its levels, its coding and its ends; the channels of a
+/// view have that view.
+bool read_more(std::uint32_t count, ByteReader& reader, MapFacts& facts) {
   const BakeFacts first = facts.front();
-  for (std::uint32_t n = 0; n < count; ++n) {
+  if (count >= kMostViews * first.channels || (count + 1) % first.channels != 0) return false;
+  for (std::uint32_t n = 1; n <= count; ++n) {
     const auto record = reader.value<FactsRecord>();
     if (!reader.ok() || !is_sound(record)) return false;
-    if ((record.samples | record.isa_bytes | record.description_bytes | record.more_views) != 0) return false;
+    if ((record.samples | record.isa_bytes | record.description_bytes | record.more_records) != 0)
+      return false;
     const BakeFacts& next = facts.emplace_back(facts_of(record));
     const bool is_kin = next.coding == first.coding && next.mip_levels == first.mip_levels &&
-                        next.receivers == first.receivers;
+                        next.receivers == first.receivers && next.channels == first.channels &&
+                        (n % first.channels == 0 || is_same_view(next, facts[n - 1]));
     if (!is_kin || !makes_a_map(next)) return false;
   }
   return true;
@@ -162,7 +174,7 @@ FactsRecord record_of(const BakeFacts& facts) {
   record.mip_levels_asked = facts.mip_levels_asked;
   record.depth_bits = facts.coding.depth_bits;
   record.value_bits = facts.coding.value_bits;
-  record.channels = kChannels;
+  record.channels = facts.channels;
   record.value_max = facts.coding.value_max;
   record.map_width = facts.map_width;
   record.map_height = facts.map_height;
@@ -178,14 +190,13 @@ std::vector<std::byte> encode_facts(const DescribedFacts& described) {
   const BakeFacts& facts = described.facts.front();
   const auto size = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
   FactsRecord record = record_of(facts);
-  record.more_views = size(described.facts) - 1;
+  record.more_records = size(described.facts) - 1;
   record.samples = size(facts.samples);
   record.isa_bytes = size(facts.isa);
   record.description_bytes = size(described.description);
   std::vector<std::byte> bytes;
   append_value(bytes, record);
-  for (std::size_t view = 1; view < described.facts.size(); ++view)
-    append_value(bytes, record_of(described.facts[view]));
+  for (std::size_t n = 1; n < described.facts.size(); ++n) append_value(bytes, record_of(described.facts[n]));
   for (const LightSample& sample : facts.samples)
     append_value(bytes, FactsSample{sample.position, sample.jitter, sample.weight, 0});
   append_array<char>(bytes, facts.isa);
@@ -196,11 +207,11 @@ std::vector<std::byte> encode_facts(const DescribedFacts& described) {
 std::optional<DescribedFacts> decode_facts(std::span<const std::byte> payload) {
   ByteReader reader(payload);
   const auto record = reader.value<FactsRecord>();
-  if (!reader.ok() || record.more_views >= kMostViews || !is_sound(record)) return {};
+  if (!reader.ok() || !is_sound(record)) return {};
   DescribedFacts described{{facts_of(record)}, {}};
-  described.facts.reserve(record.more_views + 1);
+  if (!makes_a_map(described.facts.front()) || !read_more(record.more_records, reader, described.facts))
+    return {};
   BakeFacts& first = described.facts.front();
-  if (!makes_a_map(first) || !read_more_views(record.more_views, reader, described.facts)) return {};
   const bool whole =
       read_samples(record.samples, reader, first.samples) && read_text(record.isa_bytes, reader, first.isa) &&
       read_text(record.description_bytes, reader, described.description) && reader.remaining() == 0;

@@ -75,7 +75,7 @@ struct FactsRecord {
   std::uint32_t depth_bits = 0, value_bits = 0, channels = 0, value_max = 0;
   std::uint32_t map_width = 0, map_height = 0, walk = 0, receivers = 0, flags = 0;
   std::uint32_t samples = 0, isa_bytes = 0, description_bytes = 0;
-  std::uint32_t more_views = 0;  ///< so many FactsRecords follow this, whose own last four are 0
+  std::uint32_t more_records = 0;  ///< so many FactsRecords follow this, whose own last four are 0
 };
 static_assert(sizeof(FactsRecord) == 264);
 

@@ -41,9 +41,8 @@ std::shared_ptr<const CutoutMask> make_mask(AlphaImage image, const std::array<M
 
 std::shared_ptr<const CutoutMask> make_blend(AlphaImage image, const std::array<MaskWrap, 2>& wrap) {
   if (std::ranges::all_of(image.alpha, [](std::uint8_t alpha) { return alpha == 255; })) return nullptr;
-  CutoutMask mask{image.width, image.height, std::move(image.alpha), wrap};
-  mask.blends = true;
-  return std::make_shared<const CutoutMask>(std::move(mask));
+  return std::make_shared<const CutoutMask>(
+      CutoutMask{image.width, image.height, std::move(image.alpha), wrap, 0, true});
 }
 
 }  // namespace pdsm

@@ -159,7 +159,7 @@ void collect_nodes(const aiScene& scene, AssimpCutouts&& cutouts, PartCollector&
         cutouts.cut_out(mesh, raw);
         meshes[index] = parts.clean(raw, names);
       }
-      parts.add(names, meshes[index], node_to_file, base_color(scene, mesh), cutouts.opacity(mesh));
+      parts.add(names, meshes[index], node_to_file, base_color(scene, mesh), {cutouts.opacity(mesh)});
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], node_to_file);
   }

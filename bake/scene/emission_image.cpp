@@ -11,6 +11,7 @@
 #include "pdsm/format/error.h"
 #include "scene/format_fault.h"
 #include "scene/picture.h"
+#include "scene/srgb.h"
 
 namespace pdsm {
 namespace {
@@ -22,21 +23,22 @@ float luminance(float red, float green, float blue) {
   return 0.2126F * red + 0.7152F * green + 0.0722F * blue;
 }
 
-/// IEC 61966-2-1.
 float linear(std::uint8_t srgb) {
-  const double value = srgb / 255.0;
-  return static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+  return static_cast<float>(srgb_to_linear(srgb / 255.0));
 }
 
 EmissionImage make_image(std::uint32_t width, std::uint32_t height) {
   if (width > kMostEmissionTexels || height > kMostEmissionTexels)
     throw FormatFault("has more than " + std::to_string(kMostEmissionTexels) + " texels along an axis");
-  return {width, height, std::vector<float>(std::size_t{width} * height)};
+  const std::size_t texels = std::size_t{width} * height;
+  return {width, height, std::vector<float>(texels), std::vector<glm::vec3>(texels)};
 }
 
-/// The texel of row `j` from the top.
-float& texel(EmissionImage& image, std::uint32_t i, std::uint32_t j) {
-  return image.luminance[std::size_t{image.height - 1 - j} * image.width + i];
+/// Gives a colour to the texel of row `j` from the top.
+void set_texel(EmissionImage& image, std::uint32_t i, std::uint32_t j, const glm::vec3& rgb) {
+  const std::size_t n = std::size_t{image.height - 1 - j} * image.width + i;
+  image.luminance[n] = luminance(rgb.r, rgb.g, rgb.b);
+  image.colour[n] = rgb;
 }
 
 EmissionImage read_srgb(const std::string& bytes) {
@@ -45,7 +47,7 @@ EmissionImage read_srgb(const std::string& bytes) {
   const std::uint8_t* rgb = picture.values.data();
   for (std::uint32_t j = 0; j < image.height; ++j) {
     for (std::uint32_t i = 0; i < image.width; ++i, rgb += 3)
-      texel(image, i, j) = luminance(linear(rgb[0]), linear(rgb[1]), linear(rgb[2]));
+      set_texel(image, i, j, {linear(rgb[0]), linear(rgb[1]), linear(rgb[2])});
   }
   return image;
 }
@@ -66,8 +68,7 @@ EmissionImage read_exr(const std::string& bytes) {
     // The row begins at the window's x and has y as its only row.
     file.setFrameBuffer(row.data() - window.min.x, 1, 0);
     file.readPixels(y);
-    for (std::uint32_t i = 0; i < image.width; ++i)
-      texel(image, i, j) = luminance(row[i].r, row[i].g, row[i].b);
+    for (std::uint32_t i = 0; i < image.width; ++i) set_texel(image, i, j, {row[i].r, row[i].g, row[i].b});
   }
   return image;
 }

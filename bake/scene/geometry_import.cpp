@@ -65,7 +65,7 @@ void PartCollector::warn(const std::string& text) {
 
 void PartCollector::add(const PartNames& names, const std::shared_ptr<const Mesh>& mesh,
                         const glm::dmat4& local_to_file, const std::optional<glm::vec3>& base_color,
-                        double opacity) {
+                        const Translucency& translucency) {
   if (mesh->triangles.empty()) return;
   const double volume = determinant(local_to_file);
   if (volume == 0 || !std::isfinite(volume)) {
@@ -79,7 +79,8 @@ void PartCollector::add(const PartNames& names, const std::shared_ptr<const Mesh
   part.mesh = mesh;
   part.local_to_world = local_to_file;
   if (base_color) part.base_color = *base_color;
-  part.opacity = opacity;
+  part.opacity = translucency.opacity;
+  part.transmission = translucency.transmission;
   file_.parts.push_back(std::move(part));
   file_.names.push_back(names);
 }

@@ -47,6 +47,12 @@ struct ImportedFile {
 /// "12 triangles without area left out, of wall (brick), roof and 3 more"; empty where none were.
 [[nodiscard]] std::string describe_left_out(const ImportedFile& file);
 
+/// What a part's surfaces let through: see Geometry.
+struct Translucency {
+  double opacity = 1;
+  glm::dvec3 transmission{0};
+};
+
 /// Gathers the parts of a file: meshes under node transforms.
 class PartCollector {
  public:
@@ -63,7 +69,7 @@ class PartCollector {
 
   /// Adds a part. One without triangles is passed over; one that its node flattens counts as left out.
   void add(const PartNames& names, const std::shared_ptr<const Mesh>& mesh, const glm::dmat4& local_to_file,
-           const std::optional<glm::vec3>& base_color, double opacity = 1);
+           const std::optional<glm::vec3>& base_color, const Translucency& translucency = {});
 
   /// Everything gathered; parts are named "file", or "file:node" when there are several.
   [[nodiscard]] ImportedFile take();

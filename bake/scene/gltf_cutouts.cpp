@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "pdsm/format/error.h"
 #include "scene/alpha_image.h"
 #include "scene/format_fault.h"
+#include "scene/glass_image.h"
 #include "scene/gltf_element.h"
 #include "scene/gltf_texture_places.h"
 #include "scene/one_line.h"
@@ -49,14 +51,42 @@ std::string image_name(const tinygltf::Image& image, int index) {
   return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
 }
 
-constexpr const char* kBlend = "BLEND";
+constexpr const char *kBlend = "BLEND", *kMask = "MASK";
 
-/// baseColorFactor's alpha.
-double opacity_of(const tinygltf::Material& material) {
+bool is_share(double x) {
+  return x >= 0 && x <= 1;
+}
+
+/// Linear colour and alpha.
+glm::dvec4 base_factor(const tinygltf::Material& material) {
   const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
-  const double opacity = factor.size() == 4 ? factor[3] : 1;
-  if (!(opacity >= 0 && opacity <= 1)) throw FormatFault("baseColorFactor must be from 0 to 1");
-  return opacity;
+  if (factor.size() != 4) return glm::dvec4(1);
+  if (!std::ranges::all_of(factor, is_share)) throw FormatFault("baseColorFactor must be from 0 to 1");
+  return {factor[0], factor[1], factor[2], factor[3]};
+}
+
+constexpr const char* kTransmission = "KHR_materials_transmission";
+
+/// Share of light that a material lets through before its colour takes of it.
+double transmission_factor(const tinygltf::Material& material) {
+  const auto extension = material.extensions.find(kTransmission);
+  if (extension == material.extensions.end() || !extension->second.Has("transmissionFactor")) return 0;
+  const tinygltf::Value& factor = extension->second.Get("transmissionFactor");
+  if (!factor.IsNumber() || !is_share(factor.GetNumberAsDouble()))
+    throw FormatFault("transmissionFactor must be from 0 to 1");
+  return factor.GetNumberAsDouble();
+}
+
+/// Alpha times the factor's is at least the file's cutoff where alpha is at least this.
+double alpha_cutoff(const tinygltf::Material& material) {
+  const double opacity = base_factor(material).a;
+  if (opacity > 0) return material.alphaCutoff / opacity;
+  return material.alphaCutoff > 0 ? HUGE_VAL : 0;
+}
+
+bool has_transmission_texture(const tinygltf::Material& material) {
+  const auto extension = material.extensions.find(kTransmission);
+  return extension != material.extensions.end() && extension->second.Has("transmissionTexture");
 }
 
 }  // namespace
@@ -71,8 +101,9 @@ void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
   if (found == nullptr) return;
   const auto material = static_cast<std::size_t>(primitive.material);
   const std::string& mode = found->alphaMode;
-  if ((mode != "MASK" && mode != kBlend) || mesh.positions.empty()) return;
+  if (mesh.positions.empty()) return;
   try {
+    if (mode != kMask && mode != kBlend && transmission_factor(*found) == 0) return;
     const Cutout& cutout = cutout_of(material);
     if (!cutout.mask) return;
     mesh.mask = cutout.mask;
@@ -85,14 +116,18 @@ void GltfCutouts::cut_out(const tinygltf::Primitive& primitive, Mesh& mesh) {
   }
 }
 
-double GltfCutouts::opacity(int index) const {
+Translucency GltfCutouts::translucency(int index) {
   const tinygltf::Material* material = find_element(model_.materials, index);
-  if (material == nullptr || material->alphaMode != kBlend) return 1;
+  if (material == nullptr) return {};
+  const std::string name = name_of(static_cast<std::size_t>(index));
   try {
-    return opacity_of(*material);
+    const glm::dvec4 factor = base_factor(*material);
+    const double transmission = transmission_factor(*material);
+    if (transmission > 0 && has_transmission_texture(*material))
+      parts_.warn(name + ": transmissionTexture is not read: transmissionFactor holds everywhere");
+    return {material->alphaMode == kBlend ? factor.a : 1, transmission * glm::dvec3(factor)};
   } catch (const FormatFault& fault) {
-    throw Error(Failure::input, name_.string() + ":" + name_of(static_cast<std::size_t>(index)),
-                one_line(fault.what()));
+    throw Error(Failure::input, name_.string() + ":" + name, one_line(fault.what()));
   }
 }
 
@@ -104,28 +139,34 @@ const GltfCutouts::Cutout& GltfCutouts::cutout_of(std::size_t material) {
 }
 
 GltfCutouts::Cutout GltfCutouts::read_cutout(const tinygltf::Material& material, const std::string& where) {
-  const auto& base = material.pbrMetallicRoughness;
-  const bool blends = material.alphaMode == kBlend;
-  const double opacity = opacity_of(material);
   if (!(material.alphaCutoff >= 0)) throw FormatFault("alphaCutoff must be 0 or more");
-  // Alpha times opacity is at least the cutoff where alpha is at least this.
-  const double cutoff = opacity > 0                ? material.alphaCutoff / opacity
-                        : material.alphaCutoff > 0 ? HUGE_VAL
-                                                   : 0;
-  if (blends && base.baseColorTexture.index < 0) return {};
-  if (base.baseColorTexture.index < 0) return {make_mask({1, 1, {255}, true}, {}, cutoff), {}};
-  const tinygltf::Texture& texture = element(model_.textures, base.baseColorTexture.index, "textures");
+  if (material.pbrMetallicRoughness.baseColorTexture.index >= 0) return read_picture_cutout(material, where);
+  if (material.alphaMode != kMask) return {};
+  return {make_mask({1, 1, {255}, true}, {}, alpha_cutoff(material)), {}};
+}
+
+GltfCutouts::Cutout GltfCutouts::read_picture_cutout(const tinygltf::Material& material,
+                                                     const std::string& where) {
+  const tinygltf::TextureInfo& base = material.pbrMetallicRoughness.baseColorTexture;
+  const tinygltf::Texture& texture = element(model_.textures, base.index, "textures");
   if (texture.source < 0) throw FormatFault("its texture has no image that can be read");
   const tinygltf::Image& image = element(model_.images, texture.source, "images");
   const std::string name = image_name(image, texture.source);
-  const GltfTexturePlaces places(base.baseColorTexture);
+  const GltfTexturePlaces places(base);
   std::array<MaskWrap, 2> wrap{};
   if (texture.sampler >= 0) {
     const tinygltf::Sampler& sampler = element(model_.samplers, texture.sampler, "samplers");
     wrap = {wrap_of(sampler.wrapS), wrap_of(sampler.wrapT)};
   }
+  const bool blends = material.alphaMode == kBlend, has_cutoff = material.alphaMode == kMask;
+  const double cutoff = alpha_cutoff(material);
   try {
-    AlphaImage alpha = read_alpha(image_bytes(image), WithoutAlpha::opaque);
+    const std::string bytes = image_bytes(image);
+    if (transmission_factor(material) > 0) {
+      const GlassAlpha alpha = blends ? GlassAlpha::blends : has_cutoff ? GlassAlpha::cuts : GlassAlpha::none;
+      return {read_glass(bytes, wrap, alpha, cutoff), places};
+    }
+    AlphaImage alpha = read_alpha(bytes, WithoutAlpha::opaque);
     if (blends) return {make_blend(std::move(alpha), wrap), places};
     if (!alpha.has_alpha)
       parts_.warn(fmt::format("{}: image {} has no alpha channel: nothing is cut out", where, name));

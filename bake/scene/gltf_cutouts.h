@@ -12,7 +12,8 @@
 
 namespace pdsm {
 
-/// What the materials of a glTF file cut out of its meshes (alphaMode MASK), and how opaque they are (BLEND).
+/// What the materials of a glTF file cut out of its meshes (alphaMode MASK), and how much light they let
+/// through (BLEND, and KHR_materials_transmission).
 class GltfCutouts {
  public:
   /// Borrows all but the name. Warnings go to `parts`.
@@ -25,14 +26,15 @@ class GltfCutouts {
   /// Throws Error (input) "file:material: reason".
   void cut_out(const tinygltf::Primitive& primitive, Mesh& mesh);
 
-  /// The opacity of a material, besides what its mask says. Throws as cut_out() does.
-  [[nodiscard]] double opacity(int index) const;
+  /// What a material lets through, besides what its mask says. Throws as cut_out() does.
+  [[nodiscard]] Translucency translucency(int index);
 
  private:
   struct Cutout;
 
   [[nodiscard]] const Cutout& cutout_of(std::size_t material);
   [[nodiscard]] Cutout read_cutout(const tinygltf::Material& material, const std::string& where);
+  [[nodiscard]] Cutout read_picture_cutout(const tinygltf::Material& material, const std::string& where);
   [[nodiscard]] std::string image_bytes(const tinygltf::Image& image);
   [[nodiscard]] std::string name_of(std::size_t material) const;
 

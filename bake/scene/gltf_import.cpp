@@ -277,7 +277,7 @@ class NodeWalk {
       names.material = material_name(model_, material);
       if (primitives.size() == p) primitives.push_back(read(source.primitives[p], names));
       parts_.add(names, primitives[p], node_to_file, base_color(model_, material),
-                 cutouts_.opacity(material));
+                 cutouts_.translucency(material));
     }
   }
 

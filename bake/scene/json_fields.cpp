@@ -94,6 +94,17 @@ double JsonFields::share(std::string_view key) const {
   return value;
 }
 
+glm::dvec3 JsonFields::colour(std::string_view key) const {
+  const json& value = require(key);
+  const auto is_share = [](const json& element) {
+    return element.is_number() && element.get<double>() >= 0 && element.get<double>() <= 1;
+  };
+  if (is_share(value)) return glm::dvec3(value.get<double>());
+  if (!value.is_array() || value.size() != 3 || !std::ranges::all_of(value, is_share))
+    refuse(key, "must be a number from 0 to 1, or three of them: red, green and blue");
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
 glm::dvec3 JsonFields::vector(std::string_view key) const {
   const json& value = require(key);
   const bool good = value.is_array() && value.size() == 3 &&

@@ -31,6 +31,8 @@ class JsonFields {
   [[nodiscard]] double not_negative(std::string_view key) const;
   /// From 0 to 1.
   [[nodiscard]] double share(std::string_view key) const;
+  /// A number from 0 to 1 for all of red, green and blue, or one for each.
+  [[nodiscard]] glm::dvec3 colour(std::string_view key) const;
   [[nodiscard]] glm::dvec3 vector(std::string_view key) const;
   [[nodiscard]] std::uint32_t count(std::string_view key, std::uint32_t most) const;
   /// An array, each element of which is then read by JsonFields or here.

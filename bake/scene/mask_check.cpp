@@ -11,6 +11,9 @@ namespace pdsm {
 void check_opacity(const Geometry& geometry) {
   if (!(geometry.opacity >= 0 && geometry.opacity <= 1))
     throw Error(Failure::input, geometry.name + ":opacity", "must be from 0 to 1");
+  for (int channel = 0; channel < 3; ++channel)
+    if (!(geometry.transmission[channel] >= 0 && geometry.transmission[channel] <= 1))
+      throw Error(Failure::input, geometry.name + ":transmission", "must be from 0 to 1");
 }
 
 void check_mask(const Mesh& mesh, const std::string& name) {
@@ -28,6 +31,8 @@ void check_mask(const Mesh& mesh, const std::string& name) {
                       kMostMaskTexels));
   require(mask.alpha.size() == std::size_t{mask.width} * mask.height,
           fmt::format("{} bytes of alpha for {} x {} texels", mask.alpha.size(), mask.width, mask.height));
+  require(mask.transmission.empty() || (mask.blends && mask.transmission.size() == mask.alpha.size()),
+          "transmission must have as many texels as alpha, of a mask that blends");
   require(std::isfinite(mask.cutoff) && mask.cutoff >= 0, "the cutoff must be 0 or more");
   for (const MaskWrap wrap : mask.wrap) require(wrap <= MaskWrap::clamp, "the wrap mode is unknown");
   require(mesh.mask_places.size() == mesh.positions.size(),

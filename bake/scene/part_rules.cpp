@@ -20,6 +20,7 @@ struct PartRule {
   std::optional<std::string> node, material;
   std::optional<bool> casts, receives;
   std::optional<double> opacity;
+  std::optional<glm::dvec3> transmission;
 
   [[nodiscard]] bool fits_part(const PartNames& names) const {
     const auto fits_node = [this](const std::string& name) { return fits(*node, name); };
@@ -42,16 +43,18 @@ std::optional<bool> read_switch(const JsonFields& fields, const char* key) {
 }
 
 PartRule read_rule(const JsonFields& fields) {
-  fields.allow_only({"node", "material", "casts", "receives", "opacity"});
+  fields.allow_only({"node", "material", "casts", "receives", "opacity", "transmission"});
   PartRule rule{read_pattern(fields, "node"),
                 read_pattern(fields, "material"),
                 read_switch(fields, "casts"),
                 read_switch(fields, "receives"),
+                {},
                 {}};
   if (!rule.node && !rule.material) fields.refuse("node", "or material must tell what the rule is for");
   if (fields.has("opacity")) rule.opacity = fields.share("opacity");
-  if (!rule.casts && !rule.receives && !rule.opacity)
-    fields.refuse("casts", "or receives or opacity must be there");
+  if (fields.has("transmission")) rule.transmission = fields.colour("transmission");
+  if (!rule.casts && !rule.receives && !rule.opacity && !rule.transmission)
+    fields.refuse("casts", "or receives, opacity or transmission must be there");
   return rule;
 }
 
@@ -70,6 +73,7 @@ void apply_part_rules(const JsonFields& fields, const std::vector<PartNames>& na
       any = true;
       parts[p].casts = rule.casts.value_or(parts[p].casts);
       parts[p].receives = rule.receives.value_or(parts[p].receives);
+      parts[p].transmission = rule.transmission.value_or(parts[p].transmission);
       parts[p].opacity = rule.opacity.value_or(parts[p].opacity);
     }
     if (!any) throw Error(Failure::input, fields.file() + ":" + path, "fits no part of the file");

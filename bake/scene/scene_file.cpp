@@ -80,7 +80,8 @@ void SceneReader::warn_of(const ImportedFile& file, const std::string& name) {
 
 void SceneReader::read_geometry(const json& node, std::size_t index) {
   const JsonFields fields(node, file_, join_path("geometry", index));
-  fields.allow_only({"file", "scale", "rotate", "translate", "casts", "receives", "opacity", "parts"});
+  fields.allow_only(
+      {"file", "scale", "rotate", "translate", "casts", "receives", "opacity", "transmission", "parts"});
   const glm::dmat4 placement = read_placement(fields);
   const bool casts = !fields.has("casts") || fields.boolean("casts");
   const bool receives = !fields.has("receives") || fields.boolean("receives");
@@ -92,6 +93,7 @@ void SceneReader::read_geometry(const json& node, std::size_t index) {
     part.casts = casts;
     part.receives = receives;
     part.opacity *= opacity;
+    if (fields.has("transmission")) part.transmission = fields.colour("transmission");
   }
   apply_part_rules(fields, file.names, parts);
   std::ranges::move(parts, std::back_inserter(scene_.geometry));

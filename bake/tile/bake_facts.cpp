@@ -23,7 +23,7 @@ std::uint32_t map_texels(const MapGrid& grid, std::size_t axis) {
 
 std::vector<FittedView> fitted_views(const MapFacts& facts) {
   std::vector<FittedView> fitted;
-  for (const BakeFacts& of_view : facts) fitted.push_back(of_view.fitted);
+  for (std::size_t n = 0; n < facts.size(); n += facts[n].channels) fitted.push_back(facts[n].fitted);
   return fitted;
 }
 
@@ -31,6 +31,7 @@ std::vector<FittedView> fitted_views(const MapFacts& facts) {
 
 BakeFacts gather_facts(const BakeJob& job) {
   BakeFacts facts;
+  facts.channels = job.channels;
   facts.fitted = job.fitted;
   facts.coding = job.rules.coding;
   facts.samples = job.light_samples;
@@ -61,16 +62,19 @@ PenumbraMap make_map_frame(const MapFacts& facts) {
   PenumbraMap map;
   map.coding = facts.front().coding;
   map.samples = facts.front().samples;
-  for (const BakeFacts& of_view : facts) {
-    const View& view = of_view.fitted.view;
-    for (std::uint32_t level = 0; level <= of_view.mip_levels; ++level) {
+  map.channels = facts.front().channels;
+  for (std::size_t n = 0; n < facts.size(); ++n) {
+    const View& view = facts[n].fitted.view;
+    const auto channel = static_cast<std::uint32_t>(n % map.channels);
+    if (channel == 0) map.views.push_back(view);
+    for (std::uint32_t level = 0; level <= facts[n].mip_levels; ++level) {
       FunctionImage& image = map.images.emplace_back();
-      image.view = static_cast<std::uint32_t>(map.views.size());
+      image.view = static_cast<std::uint32_t>(map.views.size() - 1);
+      image.channel = channel;
       image.level = level;
       image.width = view.width >> level;
       image.height = view.height >> level;
     }
-    map.views.push_back(view);
   }
   return map;
 }

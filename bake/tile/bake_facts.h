@@ -11,9 +11,10 @@
 
 namespace pdsm {
 
-/// What is known of one view's bake before its first tile: with the blocks and their counts, all that there
-/// is to say about the result. The same for all shards of a bake.
+/// What is known of the bake of one channel of one view before its first tile: with the blocks and their
+/// counts, all that there is to say about the result. The same for all shards of a bake.
 struct BakeFacts {
+  std::uint32_t channels = 1;  ///< of the map
   FittedView fitted;
   VertexCoding coding;
   std::vector<LightSample> samples;
@@ -35,7 +36,8 @@ struct BakeFacts {
   std::uint64_t dropped_triangles = 0;
 };
 
-/// The same of all views of a map; light samples are those of the first.
+/// The same of all channels of all views of a map, in the order of its images; light samples are those of
+/// the first.
 using MapFacts = std::vector<BakeFacts>;
 
 [[nodiscard]] BakeFacts gather_facts(const BakeJob& job);

@@ -12,6 +12,7 @@
 #include "events/transmittance_events.h"
 #include "light/fit_face.h"
 #include "pdsm/format/error.h"
+#include "scene/scene_channels.h"
 #include "tile/share_rect.h"
 #include "trace/map_rays.h"
 #include "trace/map_reach.h"
@@ -129,6 +130,13 @@ double default_bias(const MapGrid& grid) {
   return kBiasFootprints * std::max(grid.pitch[0], grid.pitch[1]) * grid.spread_at(grid.far_depth);
 }
 
+std::vector<LightSample> choose_samples(const Light& light, const BakeOptions& options,
+                                        std::uint32_t channel) {
+  if (!options.light_samples.empty()) return options.light_samples;
+  return make_light_samples(is_coloured(light) ? channel_light(light, channel) : light, options.samples,
+                            options.points, options.seed);
+}
+
 /// Layers that a map texel may have, about: of surfaces, then of volumes.
 std::uint32_t count_layers(const BakeSetup& setup) {
   return (setup.light_space.has_translucency() ? kExpectedSurfaces : 0) + setup.volume_steps;
@@ -136,22 +144,20 @@ std::uint32_t count_layers(const BakeSetup& setup) {
 
 }  // namespace
 
-BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted, std::uint32_t index)
-    : view(index),
+BakeSetup::BakeSetup(const Scene& scene, const Light& light, const BakeOptions& wanted, ViewChannel of_map)
+    : part(of_map),
       has_emission(light.emission != nullptr),
       options(fill_in(wanted)),
-      face(light_face(light, index, options.width, options.height)),
+      face(light_face(light, part.view, options.width, options.height)),
       fitted(fit_face(scene, face)),
-      light_samples(options.light_samples.empty()
-                        ? make_light_samples(light, options.samples, options.points, options.seed)
-                        : options.light_samples),
+      light_samples(choose_samples(light, options, part.channel)),
       samples(turn_samples(face, light_samples)),
       grid(make_face_grid(face, fitted.view, options)) {
   check_samples(samples, fitted.view);
   bias = std::max(options.bias.value_or(default_bias(grid)), kDepthRounding * grid.far_depth);
   mip_levels = count_mip_levels(light, options);
   const double start = omp_get_wtime();
-  light_space = to_light_space(scene, fitted.view.world_to_view);
+  light_space = to_light_space(scene, fitted.view.world_to_view, part.channel);
   // Samples that the caller brings may lie outside the light's shape, and see more.
   if (options.light_samples.empty()) keep_within(light_space, map_reach(face, grid));
   seconds_bvh = omp_get_wtime() - start;
@@ -173,8 +179,8 @@ void BakeSetup::make_rules(std::uint32_t least_depth_bits) {
 }
 
 BakeJob::BakeJob(const Scene& scene, const Light& light, const BakeOptions& wanted, const Share& share,
-                 std::uint32_t index)
-    : BakeSetup(scene, light, wanted, index) {
+                 ViewChannel of_map)
+    : BakeSetup(scene, light, wanted, of_map) {
   options.isa = choose_isa(options.isa);
   plan = plan_tiles({grid, samples, options.walk, options.threads, options.memory, options.tile, mip_levels,
                      share_rect(grid, share), count_layers(*this)});

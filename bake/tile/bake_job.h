@@ -13,20 +13,26 @@
 
 namespace pdsm {
 
+/// Which of a map's functions a setup is of.
+struct ViewChannel {
+  std::uint32_t view = 0, channel = 0;
+};
+
 /// What is baked, and from what: all that the functions depend on, but for the ISA. No ray has been traced
 /// for it.
-/// One view of a map is a setup, and a job, of its own.
+/// Each channel of each view of a map is a setup, and a job, of its own.
 struct BakeSetup {
-  BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options, std::uint32_t view = 0);
+  BakeSetup(const Scene& scene, const Light& light, const BakeOptions& options, ViewChannel part = {});
 
   /// Makes the rules of the fit, with codes of depth of at least so many bits: all views of a map have one
   /// coding.
   void make_rules(std::uint32_t least_depth_bits);
 
-  std::uint32_t view = 0;     ///< of the map
-  bool has_emission = false;  ///< the light has a picture
-  BakeOptions options;        ///< with all defaults filled in, but for the ISA
-  LightFace face;             ///< the light as this view has it
+  ViewChannel part;            ///< of the map
+  std::uint32_t channels = 1;  ///< of the map
+  bool has_emission = false;   ///< the light has a picture
+  BakeOptions options;         ///< with all defaults filled in, but for the ISA
+  LightFace face;              ///< the light as this view has it
   FittedView fitted;
   std::vector<LightSample> light_samples;  ///< in the space of view 0
   std::vector<LightSample> samples;        ///< the same in this view's
@@ -45,7 +51,7 @@ class BakeJob : public BakeSetup {
  public:
   /// The plan is of a share of the map, all else of the whole.
   BakeJob(const Scene& scene, const Light& light, const BakeOptions& options, const Share& share = {},
-          std::uint32_t view = 0);
+          ViewChannel part = {});
 
   /// Input of the tiles; `sample_stride` > 1 takes only every so manieth sample, for a trial.
   [[nodiscard]] TileInput tile_input(std::uint32_t sample_stride = 1) const;

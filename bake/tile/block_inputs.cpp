@@ -137,7 +137,7 @@ std::vector<BlockCasters> list_casters(const BakeJob& job) {
 }  // namespace
 
 bool BlockInputs::are_known(const BakeJob& job) {
-  return job.has_shadows() && !job.casters.empty() && !job.face.is_one_of_several;
+  return job.has_shadows() && !job.casters.empty() && !job.face.is_one_of_several && job.channels == 1;
 }
 
 BlockInputs::BlockInputs(const BakeJob& job, const Light& light) : casters_(list_casters(job)) {

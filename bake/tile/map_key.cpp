@@ -16,7 +16,8 @@ MapKey map_key(const Scene& scene, const Light& light, const BakeOptions& option
   const std::string isa = options.isa.empty() ? choose_isa("") : options.isa;
   const auto views = make_views<BakeSetup>(scene, light, options);
   std::vector<FittedView> fitted;
-  for (const auto& view : views) fitted.push_back(view->fitted);
+  for (const auto& view : views)
+    if (view->part.channel == 0) fitted.push_back(view->fitted);
   std::vector<std::string> warnings = geometry_warnings(views.front()->light_space.dropped_triangles);
   for (std::string& warning : view_warnings(fitted)) warnings.push_back(std::move(warning));
   return {views_key(views, light, isa, version), sum_up_views(fitted), std::move(warnings)};

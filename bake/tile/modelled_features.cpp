@@ -46,17 +46,22 @@ std::string vertex_bytes(const VertexCoding& coding, const VertexCoding& other, 
   return counted(4 * words * pieces, "bytes of vertices");
 }
 
-std::uint64_t count_texels(const MapFacts& views) {
+/// Of all views and channels.
+std::uint64_t count_texels(const MapFacts& map) {
   std::uint64_t texels = 0;
-  for (const BakeFacts& facts : views)
+  for (const BakeFacts& facts : map)
     texels += std::uint64_t{facts.fitted.view.width} * facts.fitted.view.height;
   return texels;
 }
 
-/// What holds of a map of these views: what is modelled in one is modelled.
-BakeFacts sum_up(const MapFacts& views) {
-  BakeFacts sum = views.front();
-  for (const BakeFacts& facts : views) {
+std::size_t count_views(const MapFacts& map) {
+  return map.size() / map.front().channels;
+}
+
+/// What holds of a map: what is modelled in one view or channel is modelled.
+BakeFacts sum_up(const MapFacts& map) {
+  BakeFacts sum = map.front();
+  for (const BakeFacts& facts : map) {
     sum.has_shadows = sum.has_shadows || facts.has_shadows;
     sum.is_projected = sum.is_projected && (facts.is_projected || !facts.has_shadows);
     sum.shift_law = sum.shift_law && facts.shift_law;
@@ -109,9 +114,9 @@ void list_visibility(const BakeFacts& facts, std::uint64_t texels, bool is_one_o
     list.left_out("volumes", "the scene has none", counted(samples, "marched maps"));
 }
 
-void list_faces(const MapFacts& views, FeatureList& list) {
-  list.either(views.size() > 1, "faces", "the light shines to all sides: one view is not enough",
-              "one view holds the window", counted(5 * count_texels(views), "texels"));
+void list_faces(const MapFacts& map, FeatureList& list) {
+  list.either(count_views(map) > 1, "faces", "the light shines to all sides: one view is not enough",
+              "one view holds the window", counted(5 * count_texels(map), "texels"));
 }
 
 /// Where functions are exact.
@@ -145,8 +150,9 @@ void list_coding(const BakeFacts& facts, const BlockCounts& done, FeatureList& l
   VertexCoding deep = coding, fine = coding;
   deep.depth_bits = 32;
   fine.value_bits = 16;
-  list.left_out("colour", "the light and all casters are grey: one channel",
-                counted(2 * 4 * coding.words_per_vertex() * done.pieces, "bytes of vertices"));
+  list.either(facts.channels > 1, "colour", "the light or casters are coloured: red, green and blue",
+              "the light and all casters are grey: one channel",
+              counted(2 * 4 * coding.words_per_vertex() * done.pieces, "bytes of vertices"));
   list.either(coding.depth_bits == 32, "depths of 32 bits", "the depth tolerance needs 32 bits",
               "the depth tolerance needs 16 bits", vertex_bytes(coding, deep, done.pieces));
   list.either(coding.value_bits > 8, "values beyond 8 bits",
@@ -156,11 +162,11 @@ void list_coding(const BakeFacts& facts, const BlockCounts& done, FeatureList& l
 
 }  // namespace
 
-std::vector<ModelledFeature> list_modelled_features(const MapFacts& views, const BlockCounts& done) {
-  const BakeFacts facts = sum_up(views);
+std::vector<ModelledFeature> list_modelled_features(const MapFacts& map, const BlockCounts& done) {
+  const BakeFacts facts = sum_up(map);
   FeatureList list;
-  list_visibility(facts, count_texels(views), views.size() > 1, done, list);
-  list_faces(views, list);
+  list_visibility(facts, count_texels(map), count_views(map) > 1, done, list);
+  list_faces(map, list);
   list_domain(facts, list);
   list_levels(facts, list);
   list_coding(facts, done, list);

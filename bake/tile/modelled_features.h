@@ -9,7 +9,7 @@
 namespace pdsm {
 
 /// What a bake modelled and what it left out, with the reasons and what leaving it out saved.
-[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const MapFacts& views,
+[[nodiscard]] std::vector<ModelledFeature> list_modelled_features(const MapFacts& map,
                                                                   const BlockCounts& done);
 
 }  // namespace pdsm

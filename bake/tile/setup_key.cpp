@@ -28,6 +28,9 @@ void add_light(KeyHash& hash, const Light& light) {
   if (light.emission) hash.add(kPictureFollows);
 }
 
+/// What marks one of several channels; its number is added.
+constexpr std::uint64_t kChannelFollows = 0x6c656e6e61686300U;
+
 void add_view(KeyHash& hash, const FittedView& fitted) {
   const View& view = fitted.view;
   hash.add(std::span(view.world_to_view.rotation));
@@ -141,6 +144,7 @@ void add_setup(KeyHash& hash, const BakeSetup& setup, const Light& light, const 
   hash.add(version);
   hash.add(isa);
   add_light(hash, light);
+  if (setup.channels > 1) hash.add(kChannelFollows + setup.part.channel);
   add_view(hash, setup.fitted);
   add_options(hash, setup);
   add_samples(hash, setup.light_samples);

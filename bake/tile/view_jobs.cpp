@@ -3,15 +3,15 @@
 
 namespace pdsm {
 
-BakeCallbacks view_callbacks(const BakeCallbacks& callbacks, std::size_t view, std::size_t count) {
+BakeCallbacks view_callbacks(const BakeCallbacks& callbacks, std::size_t job, std::size_t count) {
   if (count == 1 || !callbacks.progress) return callbacks;
-  BakeCallbacks of_view = callbacks;
-  of_view.progress = [tell = callbacks.progress, view, count](const BakeProgress& progress) {
+  BakeCallbacks of_job = callbacks;
+  of_job.progress = [tell = callbacks.progress, job, count](const BakeProgress& progress) {
     BakeProgress of_all = progress;
-    of_all.done = (static_cast<double>(view) + progress.done) / static_cast<double>(count);
+    of_all.done = (static_cast<double>(job) + progress.done) / static_cast<double>(count);
     tell(of_all);
   };
-  return of_view;
+  return of_job;
 }
 
 }  // namespace pdsm

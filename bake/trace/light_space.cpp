@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene_channels.h"
 #include "scene/volume_hull.h"
 
 namespace pdsm {
@@ -35,12 +36,10 @@ bool is_good(const LightSpaceMesh& mesh, std::uint32_t corner) {
 
 LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_light, std::uint64_t& dropped) {
   LightSpaceMesh mesh;
-  check_opacity(geometry);
   mesh.casts = casts_shadows(geometry);
   mesh.opacity = geometry.opacity;
   mesh.receives = geometry.receives;
   mesh.closed = geometry.mesh->closed;
-  check_mask(*geometry.mesh, geometry.name);
   mesh.mask = geometry.mesh->mask;
   mesh.mask_places = geometry.mesh->mask_places;
   const glm::dmat4 local_to_light = world_to_light * geometry.local_to_world;
@@ -81,18 +80,28 @@ bool LightSpaceScene::has_cutouts() const {
 }
 
 bool LightSpaceScene::has_translucency() const {
-  return std::ranges::any_of(meshes, [](const LightSpaceMesh& mesh) {
-    return mesh.is_translucent_caster() && !mesh.triangles.empty();
-  });
+  return std::ranges::any_of(
+      meshes, [](const LightSpaceMesh& mesh) { return mesh.has_layers && !mesh.triangles.empty(); });
 }
 
-LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light) {
+bool LightSpaceScene::is_coloured() const {
+  return std::ranges::any_of(
+      meshes, [](const LightSpaceMesh& mesh) { return mesh.is_coloured && !mesh.triangles.empty(); });
+}
+
+LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light,
+                               std::uint32_t channel) {
   LightSpaceScene result;
   const glm::dmat4 matrix = to_matrix(world_to_light);
   for (const Geometry& geometry : scene.geometry) {
     if (!geometry.casts && !geometry.receives) continue;
-    result.meshes.push_back(move_mesh(geometry, matrix, result.dropped_triangles));
-    result.triangles += result.meshes.back().triangles.size();
+    check_opacity(geometry);
+    check_mask(*geometry.mesh, geometry.name);
+    LightSpaceMesh& mesh = result.meshes.emplace_back(
+        move_mesh(channel_geometry(geometry, channel), matrix, result.dropped_triangles));
+    mesh.has_layers = is_translucent_caster(geometry);
+    mesh.is_coloured = is_coloured_caster(geometry);
+    result.triangles += mesh.triangles.size();
   }
   for (const Volume& volume : scene.volumes) {
     check_volume(volume);

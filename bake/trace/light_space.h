@@ -19,6 +19,8 @@ struct LightSpaceMesh {
   std::shared_ptr<const CutoutMask> mask;  ///< null: nothing is cut out
   std::vector<glm::vec2> mask_places;      ///< one a position, where there is a mask
   double opacity = 1;                      ///< above 0 where it casts
+  bool has_layers = false;                 ///< in some channel, rays go on behind it with less
+  bool is_coloured = false;                ///< channels differ behind it
 
   /// Whether all rays that meet it end there.
   [[nodiscard]] bool is_whole_caster() const { return casts && mask == nullptr && opacity == 1; }
@@ -50,13 +52,16 @@ struct LightSpaceScene {
 
   /// Whether any caster has holes.
   [[nodiscard]] bool has_cutouts() const;
-  /// Whether any caster lets a part of the light through.
+  /// Whether any caster lets a part of the light through, of any channel.
   [[nodiscard]] bool has_translucency() const;
+  /// Whether channels differ behind some caster.
+  [[nodiscard]] bool is_coloured() const;
   /// Whether light samples have layers before what is opaque: casters of either kind.
   [[nodiscard]] bool has_layers() const { return has_translucency() || !volumes.empty(); }
 };
 
-/// Throws as check_mask() and check_volume() do.
-[[nodiscard]] LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light);
+/// The scene as light of `channel` (0 .. 2) meets it. Throws as check_mask() and check_volume() do.
+[[nodiscard]] LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light,
+                                             std::uint32_t channel = 0);
 
 }  // namespace pdsm

@@ -31,8 +31,8 @@ ProbedTruth trace_again(ProbedTruth truth, const Scene& scene, const Light& ligh
   enum Stream : std::uint64_t { kA = 0x100, kB };  // apart from those of probe_truth()
   const ShadowRays rays(scene, light, near_depth);
   const std::uint32_t half = std::max(1U, options.samples / 2);
-  truth.a = rays.attenuations(truth.points, half, hash_bits(options.seed, kA));
-  truth.b = rays.attenuations(truth.points, half, hash_bits(options.seed, kB));
+  truth.a = rays.rgbs(truth.points, half, hash_bits(options.seed, kA));
+  truth.b = rays.rgbs(truth.points, half, hash_bits(options.seed, kB));
   return truth;
 }
 

@@ -133,7 +133,7 @@ TEST_P(SeveralViews, RaysThatAreLeftOutHaveNoEvents) {
   options.mip_levels = 0;
   std::uint64_t views = 0;
   for (std::uint32_t view = 0; view < view_count(light()); ++view) {
-    const BakeJob job(surrounded(), light(), options, {}, view);
+    const BakeJob job(surrounded(), light(), options, {}, {view, 0});
     if (job.shift_law()) continue;
     ++views;
     EXPECT_EQ(bake_view(job, true), bake_view(job, false)) << view;

@@ -118,6 +118,47 @@ TEST_F(GltfCutout, BlendIsOpacityTimesAlpha) {
   EXPECT_EQ(plain.geometry[0].mesh->mask, nullptr);
 }
 
+void let_through(json& material, const json& factor) {
+  material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = factor;
+}
+
+TEST_F(GltfCutout, TransmissionIsColouredByTheBase) {
+  material()["alphaMode"] = "OPAQUE";
+  material()["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0.5, 0.25, 0.6};
+  let_through(material(), 0.8);
+  const Geometry textured = scene().geometry[0];
+  EXPECT_EQ(textured.opacity, 1);
+  EXPECT_EQ(textured.transmission, 0.8 * glm::dvec3(1, 0.5, 0.25));
+  // Of an opaque material the picture's alpha means nothing; its colours are linear.
+  ASSERT_NE(textured.mesh->mask, nullptr);
+  EXPECT_TRUE(textured.mesh->mask->blends);
+  EXPECT_EQ(textured.mesh->mask->alpha, std::vector<std::uint8_t>(kAlpha.size(), 255));
+  EXPECT_EQ(textured.mesh->mask->transmission.size(), kAlpha.size());
+  material()["alphaMode"] = "BLEND";
+  EXPECT_EQ(scene().geometry[0].opacity, 0.6);
+  EXPECT_EQ(import().mask->alpha, kAlpha);
+  material()["alphaMode"] = "MASK";
+  material()["alphaCutoff"] = 0.3;
+  const std::vector<std::uint8_t> cut = import().mask->alpha;
+  for (std::size_t n = 0; n < cut.size(); ++n) EXPECT_EQ(cut[n], kAlpha[n] >= 0.5 * 255 ? 255 : 0) << n;
+  material()["pbrMetallicRoughness"].erase("baseColorTexture");
+  material()["alphaMode"] = "OPAQUE";
+  EXPECT_EQ(import().mask, nullptr);
+  EXPECT_EQ(scene().geometry[0].transmission, 0.8 * glm::dvec3(1, 0.5, 0.25));
+}
+
+TEST_F(GltfCutout, TransmissionThatCannotBe) {
+  for (const json& factor : {json(1.5), json(-1), json("much")}) {
+    let_through(material(), factor);
+    EXPECT_NE(fault().find("transmissionFactor must be from 0 to 1"), std::string::npos) << factor;
+  }
+  let_through(material(), 0.5);
+  EXPECT_TRUE(scene().warnings.empty());
+  material()["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
+  ASSERT_EQ(scene().warnings.size(), 1U);
+  EXPECT_NE(scene().warnings[0].find("transmissionTexture is not read"), std::string::npos);
+}
+
 TEST_F(GltfCutout, CutoffAndBaseColourFactor) {
   material()["alphaCutoff"] = 0.3;
   EXPECT_FLOAT_EQ(import().mask->cutoff, 0.3F);

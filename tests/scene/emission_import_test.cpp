@@ -46,6 +46,8 @@ TEST_F(EmissionImport, SrgbByLuminanceFromTheTop) {
   EXPECT_NEAR(image.luminance[1], 0.5029, 1e-4);
   EXPECT_FLOAT_EQ(image.luminance[2], 0.2126F);
   EXPECT_FLOAT_EQ(image.luminance[3], 0.7152F);
+  EXPECT_EQ(image.colour[0], glm::vec3(0, 0, 1));
+  EXPECT_EQ(image.colour[3], glm::vec3(0, 1, 0));
 }
 
 TEST_F(EmissionImport, DarkSrgbIsLinear) {

@@ -103,6 +103,19 @@ TEST_F(PartRules, OpacityGoesOverTheMaterialsAndTheEntrys) {
             "level.scene.json:geometry[0].parts[0].opacity: must be a number from 0 to 1");
 }
 
+TEST_F(PartRules, TransmissionGoesOverTheEntrys) {
+  const Scene scene = folder_.read(
+      scene_of("level.gltf",
+               R"("transmission": 0.5, "parts": [{"material": "glass", "transmission": [0.9, 0.1, 0]}])"));
+  ASSERT_EQ(scene.geometry.size(), 3U);
+  EXPECT_EQ(scene.geometry[0].transmission, glm::dvec3(0.5));
+  EXPECT_EQ(scene.geometry[2].transmission, glm::dvec3(0.9, 0.1, 0));
+  for (const char* bad : {"1.5", "[0.5, 0.5]", "[0, 0, -1]", "\"red\""})
+    EXPECT_EQ(fault_of(R"([{"node": "wall", "transmission": )" + std::string(bad) + "}]"),
+              "level.scene.json:geometry[0].parts[0].transmission: must be a number from 0 to 1, or three of "
+              "them: red, green and blue");
+}
+
 TEST_F(PartRules, AreForOneEntryAlone) {
   const Scene scene = folder_.read(
       R"({"geometry": [{"file": "level.gltf", "parts": [{"node": "*", "casts": false}]}, {"file": "level.gltf"}]})");
@@ -138,7 +151,8 @@ TEST_F(PartRules, ThatSayNothingAreFaults) {
   const std::string place = "level.scene.json:geometry[0].parts";
   EXPECT_EQ(fault_of(R"([{"casts": false}])"),
             place + "[0].node: or material must tell what the rule is for");
-  EXPECT_EQ(fault_of(R"([{"node": "wall"}])"), place + "[0].casts: or receives or opacity must be there");
+  EXPECT_EQ(fault_of(R"([{"node": "wall"}])"),
+            place + "[0].casts: or receives, opacity or transmission must be there");
   EXPECT_EQ(fault_of(R"([{"node": "", "casts": false}])"),
             place + "[0].node: must be a name, or a pattern of one");
   EXPECT_EQ(fault_of(R"([{"nodes": "wall", "casts": false}])").rfind(place + "[0].nodes: unknown key", 0),

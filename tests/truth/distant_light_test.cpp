@@ -197,7 +197,7 @@ TEST(DistantErrorBudget, PartsAddUpAndSamplingIsThatOfItsOwnSamples) {
   for (std::uint32_t n = 0; n < 300; ++n) {
     const std::array<double, 2> unit = hash_unit_pair(8, n);
     truth.points.emplace_back(2.8 * unit[0] - 1.4, 2.8 * unit[1] - 1.4, 4.5 + 3.4 * hash_unit(7, n));
-    truth.a.push_back(hidden_samples(map, truth.points.back()));
+    truth.a.push_back(grey(hidden_samples(map, truth.points.back())));
   }
   truth.b = truth.a;
   const PointParts parts = measure_point_parts(map, scene, scene.lights[0], options, truth);
@@ -226,7 +226,7 @@ TEST(DistantErrorBudget, TheBiasReachesByThePitchAlone) {
   const PenumbraMap map = decode_blocks(bake(scene, scene.lights[0], options));
   ProbedTruth truth;
   for (const double x : {-0.2, -0.1, 0.0, 0.05}) truth.points.emplace_back(x, 0.1, 1.2 + x);
-  truth.a = truth.b = {1, 1, 1, 1};
+  truth.a = truth.b = std::vector(4, grey(1));
   const PointParts parts = measure_point_parts(map, scene, scene.lights[0], options, truth);
   for (std::size_t n = 0; n < 4; ++n) {
     EXPECT_EQ(parts.depth_bias[n], 0) << n;

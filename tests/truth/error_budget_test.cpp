@@ -56,7 +56,7 @@ ProbedTruth known_truth(std::uint32_t count) {
     const double z = 4.5 + 3.4 * hash_unit(7, n);
     const std::array<double, 2> unit = hash_unit_pair(8, n);
     truth.points.emplace_back((0.5 * unit[0] - 0.25) * z, (0.5 * unit[1] - 0.25) * z, z);
-    truth.a.push_back(true_attenuation(truth.points.back()));
+    truth.a.push_back(grey(true_attenuation(truth.points.back())));
   }
   truth.b = truth.a;
   return truth;
@@ -132,7 +132,7 @@ TEST(ErrorBudget, NoSamplingErrorAgainstItsOwnSamples) {
   const PenumbraMap map = bake_map(scene, small_options());
   ProbedTruth truth = known_truth(500);
   for (std::size_t n = 0; n < truth.points.size(); ++n)
-    truth.a[n] = truth.b[n] = hidden_samples(map, truth.points[n]);
+    truth.a[n] = truth.b[n] = grey(hidden_samples(map, truth.points[n]));
   const PointParts parts = measure_point_parts(map, scene, scene.lights[0], small_options(), truth);
   EXPECT_EQ(largest(parts.sampling), 0);
   EXPECT_GT(largest(parts.filter), 0);
@@ -237,7 +237,7 @@ ProbedTruth lit_points(double slope) {
     truth.points.emplace_back(x, y, 6 + slope * x);
   }
   truth.surface_points = truth.points.size();
-  truth.a = truth.b = std::vector<double>(truth.points.size(), 0.0);
+  truth.a = truth.b = std::vector(truth.points.size(), grey(0));
   return truth;
 }
 
@@ -284,7 +284,7 @@ TEST(ErrorBudget, TheBiasReachesByTheSlope) {
     const double u = (i + 0.5 + 0.2) * pitch, z = 6 / (1 - slope * u);
     truth.points.emplace_back(u * z, 0.5 * pitch * z, z);
   }
-  truth.a = truth.b = std::vector<double>(truth.points.size(), 0.0);
+  truth.a = truth.b = std::vector(truth.points.size(), grey(0));
   BakeOptions options = small_options();
   options.bias = 0;
   const PointParts parts = parts_of(slanted(slope, true), options, truth);
@@ -297,7 +297,7 @@ TEST(ErrorBudget, LeaksOfTheBiasAreTold) {
   const Scene scene = plate_over_floor();
   ProbedTruth truth;
   for (const double x : {-0.2, -0.1, 0.0, 0.1, 0.2}) truth.points.emplace_back(x, 0.05, kPlateDepth + 0.1);
-  truth.a = truth.b = std::vector<double>(truth.points.size(), 1.0);
+  truth.a = truth.b = std::vector(truth.points.size(), grey(1));
   BakeOptions options = small_options();
   options.bias = 0.3;
   const PointParts parts = parts_of(scene, options, truth);

@@ -6,8 +6,8 @@ namespace pdsm::test {
 BakedFunctions::BakedFunctions(const Scene& scene, const Light& light, const BakeOptions& options)
     : baked_(bake(scene, light, options)), map_(decode_blocks(baked_)) {}
 
-BakedFunctions::Place BakedFunctions::place(std::uint32_t i, std::uint32_t j, std::uint32_t level) const {
-  const FunctionImage& image = map_.images[level];
+BakedFunctions::Place BakedFunctions::place(std::uint32_t i, std::uint32_t j, std::size_t index) const {
+  const FunctionImage& image = map_.images[index];
   const std::uint32_t bx = i / kBlockSize, by = j / kBlockSize;
   const std::uint32_t width = block_extent(image.width, image.height, bx, by)[0];
   return {&image.blocks[std::size_t{by} * image.blocks_across() + bx],
@@ -20,8 +20,8 @@ std::vector<FunctionVertex> BakedFunctions::function(std::uint32_t i, std::uint3
   return unpack_function(map_.coding, *p.block, p.texel);
 }
 
-double BakedFunctions::value(std::uint32_t i, std::uint32_t j, double z) const {
-  return evaluate_function(view(), map_.coding, function(i, j), z);
+double BakedFunctions::value(std::uint32_t i, std::uint32_t j, double z, std::uint32_t channel) const {
+  return evaluate_function(view(), map_.coding, function(i, j, channel), z);
 }
 
 double BakedFunctions::domain_end(std::uint32_t i, std::uint32_t j) const {

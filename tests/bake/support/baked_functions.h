@@ -21,8 +21,8 @@ class BakedFunctions {
 
   [[nodiscard]] std::vector<FunctionVertex> function(std::uint32_t i, std::uint32_t j,
                                                      std::uint32_t level = 0) const;
-  /// V' of a texel's own function.
-  [[nodiscard]] double value(std::uint32_t i, std::uint32_t j, double z) const;
+  /// V' of a texel's own function, of maps without mip levels for any channel.
+  [[nodiscard]] double value(std::uint32_t i, std::uint32_t j, double z, std::uint32_t channel = 0) const;
   /// End of a texel's domain as it is stored, metres; far if there is none.
   [[nodiscard]] double domain_end(std::uint32_t i, std::uint32_t j) const;
   /// The same as a depth code; empty if there is none.
@@ -41,7 +41,7 @@ class BakedFunctions {
     const FunctionBlock* block;
     std::uint32_t texel;
   };
-  [[nodiscard]] Place place(std::uint32_t i, std::uint32_t j, std::uint32_t level) const;
+  [[nodiscard]] Place place(std::uint32_t i, std::uint32_t j, std::size_t image) const;
 
   BakedMap baked_;
   PenumbraMap map_;

@@ -33,6 +33,9 @@ struct CutoutMask {
   /// Nothing is cut out: alpha times Geometry::opacity is the surface's opacity, and the cutoff means
   /// nothing.
   bool blends = false;
+  /// Where it blends: by what Geometry::transmission is multiplied in each texel, red, green and blue, in
+  /// units of 1/255. Empty: 1 everywhere.
+  std::vector<glm::u8vec3> transmission = {};
 };
 inline constexpr std::uint32_t kMostMaskTexels = 16384;
 
@@ -67,6 +70,9 @@ struct Geometry {
   /// nothing, 1 is opaque. With a mask that blends, times its alpha. What a translucent surface receives is
   /// what an opaque one does.
   double opacity = 1;
+  /// Of what `opacity` takes away, the share that passes nevertheless, red, green and blue, 0 .. 1 each: the
+  /// colour of stained glass. Where all three are 1, `opacity` takes nothing.
+  glm::dvec3 transmission{0};
   glm::vec3 base_color{0.72F, 0.70F, 0.66F};  ///< linear RGB; pictures only
 };
 
@@ -78,17 +84,16 @@ struct DiskLight {
 };
 
 /// Whether a geometry takes any light away.
-[[nodiscard]] inline bool casts_shadows(const Geometry& geometry) {
-  return geometry.casts && geometry.opacity != 0;
-}
+[[nodiscard]] bool casts_shadows(const Geometry& geometry);
 
-/// Whether it takes away a part of the light only, somewhere.
-[[nodiscard]] inline bool is_translucent_caster(const Geometry& geometry) {
-  return casts_shadows(geometry) &&
-         (geometry.opacity != 1 || (geometry.mesh && geometry.mesh->mask && geometry.mesh->mask->blends));
-}
+/// Whether it takes away a part of the light only, somewhere, of some channel.
+[[nodiscard]] bool is_translucent_caster(const Geometry& geometry);
 
-/// Throws Error (input) "name:opacity: reason" for one outside of 0 .. 1, or NaN. Baking calls it.
+/// Whether it casts, and takes more of one channel than of another. O(texels of its mask).
+[[nodiscard]] bool is_coloured_caster(const Geometry& geometry);
+
+/// Throws Error (input) "name:opacity: reason", or of transmission, for one outside of 0 .. 1, or NaN. Baking
+/// calls it.
 void check_opacity(const Geometry& geometry);
 
 /// A ball that emits from all of its surface: its map has the six faces of a cube as views.
@@ -107,6 +112,8 @@ inline constexpr double kMostDistantAngle = 90;
 struct EmissionImage {
   std::uint32_t width = 0, height = 0;  ///< texels, 1 .. kMostEmissionTexels
   std::vector<float> luminance;  ///< row by row along light x, the row at -y first; finite, >= 0, not all 0
+  /// Linear red, green and blue of the same texels, finite, >= 0. Empty: as the luminance.
+  std::vector<glm::vec3> colour = {};
 };
 inline constexpr std::uint32_t kMostEmissionTexels = 8192;
 

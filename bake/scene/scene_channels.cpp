@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_channels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pdsm {
+namespace {
+
+const CutoutMask* blending_mask(const Geometry& geometry) {
+  return geometry.mesh && geometry.mesh->mask && geometry.mesh->mask->blends ? geometry.mesh->mask.get()
+                                                                             : nullptr;
+}
+
+/// The mask that lets `transmission` of a channel through besides.
+std::shared_ptr<const CutoutMask> channel_mask(const CutoutMask& mask, double transmission, int channel) {
+  auto of_channel = std::make_shared<CutoutMask>(mask);
+  of_channel->transmission.clear();
+  for (std::size_t n = 0; n < mask.alpha.size(); ++n) {
+    const double kept = 1 - transmission * mask.transmission[n][channel] / 255.0;
+    of_channel->alpha[n] = static_cast<std::uint8_t>(std::lround(kept * mask.alpha[n]));
+  }
+  return of_channel;
+}
+
+bool is_grey(const glm::dvec3& colour) {
+  return colour.r == colour.g && colour.g == colour.b;
+}
+
+float channel_of(const EmissionImage& image, std::size_t texel, std::uint32_t channel) {
+  return image.colour[texel][static_cast<int>(channel)];
+}
+
+double sum_channel(const EmissionImage& image, std::uint32_t channel) {
+  double sum = 0;
+  for (std::size_t n = 0; n < image.colour.size(); ++n)
+    sum += static_cast<double>(channel_of(image, n, channel));
+  return sum;
+}
+
+/// Between a channel and the luminance, as distributions over the light.
+double total_variation(const EmissionImage& image, std::uint32_t channel) {
+  const double of_channel = sum_channel(image, channel);
+  if (of_channel == 0) return 0;
+  double of_all = 0, sum = 0;
+  for (const float luminance : image.luminance) of_all += static_cast<double>(luminance);
+  for (std::size_t n = 0; n < image.colour.size(); ++n)
+    sum += std::abs(static_cast<double>(channel_of(image, n, channel)) / of_channel -
+                    static_cast<double>(image.luminance[n]) / of_all);
+  return sum / 2;
+}
+
+}  // namespace
+
+bool casts_shadows(const Geometry& geometry) {
+  const CutoutMask* mask = blending_mask(geometry);
+  const bool is_clear =
+      geometry.transmission == glm::dvec3(1) && (mask == nullptr || mask->transmission.empty());
+  return geometry.casts && geometry.opacity != 0 && !is_clear;
+}
+
+bool is_translucent_caster(const Geometry& geometry) {
+  return casts_shadows(geometry) && (geometry.opacity != 1 || geometry.transmission != glm::dvec3(0) ||
+                                     blending_mask(geometry) != nullptr);
+}
+
+bool is_coloured_caster(const Geometry& geometry) {
+  if (!casts_shadows(geometry)) return false;
+  const CutoutMask* mask = blending_mask(geometry);
+  if (mask == nullptr || mask->transmission.empty()) return !is_grey(geometry.transmission);
+  const auto has_hue = [&](const glm::u8vec3& share) {
+    return !is_grey(geometry.transmission * glm::dvec3(share));
+  };
+  return std::ranges::any_of(mask->transmission, has_hue);
+}
+
+Geometry channel_geometry(const Geometry& geometry, std::uint32_t channel) {
+  Geometry of_channel = geometry;
+  if (geometry.transmission == glm::dvec3(0)) return of_channel;
+  of_channel.transmission = glm::dvec3(0);
+  const auto index = static_cast<int>(channel);
+  const double transmission = geometry.transmission[index];
+  const CutoutMask* mask = blending_mask(geometry);
+  if (mask == nullptr || mask->transmission.empty()) {
+    of_channel.opacity *= 1 - transmission;
+    return of_channel;
+  }
+  auto mesh = std::make_shared<Mesh>(*geometry.mesh);
+  mesh->mask = channel_mask(*mask, transmission, index);
+  of_channel.mesh = std::move(mesh);
+  return of_channel;
+}
+
+Scene channel_scene(const Scene& scene, std::uint32_t channel) {
+  Scene of_channel;
+  of_channel.source = scene.source;
+  of_channel.volumes = scene.volumes;
+  for (const Geometry& geometry : scene.geometry)
+    of_channel.geometry.push_back(channel_geometry(geometry, channel));
+  return of_channel;
+}
+
+Light channel_light(const Light& light, std::uint32_t channel) {
+  if (!light.emission || light.emission->colour.empty()) return light;
+  Light of_channel = light;
+  auto image = std::make_shared<EmissionImage>();
+  image->width = light.emission->width;
+  image->height = light.emission->height;
+  image->luminance = light.emission->luminance;
+  if (sum_channel(*light.emission, channel) > 0)
+    for (std::size_t n = 0; n < image->luminance.size(); ++n)
+      image->luminance[n] = channel_of(*light.emission, n, channel);
+  of_channel.emission = std::move(image);
+  return of_channel;
+}
+
+bool is_coloured(const Light& light) {
+  constexpr double kHalfStep = 1.0 / 510;
+  if (!light.emission || light.emission->colour.empty()) return false;
+  for (std::uint32_t channel = 0; channel < kColourChannels; ++channel)
+    if (total_variation(*light.emission, channel) > kHalfStep) return true;
+  return false;
+}
+
+bool may_be_coloured(const Scene& scene, const Light& light) {
+  return is_coloured(light) || std::ranges::any_of(scene.geometry, is_coloured_caster);
+}
+
+}  // namespace pdsm
