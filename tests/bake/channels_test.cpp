@@ -10,6 +10,7 @@
 #include "pdsm/bake/map_key.h"
 #include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
+#include "pdsm/runtime/look_up.h"
 #include "scene/scene_channels.h"
 #include "scratch_folder.h"
 #include "support/baked_functions.h"
@@ -250,7 +251,9 @@ TEST(Channels, AllViewsOfASphereHaveThem) {
   light.shape = SphereLight{0.2};
   Scene scene;
   add_glass(scene, Plate{-1, -1, 1, 1, 2}, kRuby);
+  add_glass(scene, Plate{-1, -1, 1, 1, -2}, {0, 1, 0.5});
   add(scene, Plate{-3, -3, 3, 3, 4});
+  add(scene, Plate{-3, -3, 3, 3, -4});
   BakeOptions options = glass_options(64, 16);
   options.mip_levels = 1;
   const BakedFunctions baked(scene, light, options);
@@ -260,6 +263,15 @@ TEST(Channels, AllViewsOfASphereHaveThem) {
     EXPECT_EQ(baked.map().images[n].view, n / 6);
     EXPECT_EQ(baked.map().images[n].channel, n / 2 % 3);
     EXPECT_EQ(baked.map().images[n].level, n % 2);
+  }
+  // Behind the middle of either pane all of the light comes through it.
+  const PenumbraLookUp look_up(baked.map());
+  const auto front = look_up.at({0, 0, 3}, Filter::bilinear).rgb,
+             back = look_up.at({0, 0, -3}, Filter::bilinear).rgb;
+  for (int channel = 0; channel < 3; ++channel) {
+    const auto n = static_cast<std::size_t>(channel);
+    EXPECT_NEAR(static_cast<double>(front[n]), 1 - kRuby[channel], tolerance(16)) << channel;
+    EXPECT_NEAR(static_cast<double>(back[n]), 1 - glm::dvec3(0, 1, 0.5)[channel], tolerance(16)) << channel;
   }
 }
 
