@@ -6,7 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include "scene/caster_hull.h"
 
 namespace pdsm {
 namespace {
@@ -43,12 +47,18 @@ Box world_box(const Geometry& geometry) {
   return box;
 }
 
+/// Geometry, and the surfaces around volumes and curves.
+std::vector<Geometry> all_surfaces(const Scene& scene) {
+  std::vector<Geometry> all = scene.geometry;
+  for (CasterHull& hull : caster_hulls(scene)) all.push_back(std::move(hull.surface));
+  return all;
+}
+
 /// Boxes of the casters that a picture is about; of everything when nothing casts.
-std::vector<Box> subject_boxes(const Scene& scene) {
-  const bool any_casts =
-      std::any_of(scene.geometry.begin(), scene.geometry.end(), [](const Geometry& g) { return g.casts; });
+std::vector<Box> subject_boxes(std::span<const Geometry> all) {
+  const bool any_casts = std::any_of(all.begin(), all.end(), [](const Geometry& g) { return g.casts; });
   std::vector<Box> boxes;
-  for (const Geometry& geometry : scene.geometry) {
+  for (const Geometry& geometry : all) {
     const Box box = world_box(geometry);
     if (!box.empty() && (geometry.casts || !any_casts)) boxes.push_back(box);
   }
@@ -65,10 +75,10 @@ std::vector<Box> subject_boxes(const Scene& scene) {
 }
 
 /// Some hundred vertices within the focus.
-std::vector<glm::dvec3> focus_points(const Scene& scene, const Focus& focus) {
+std::vector<glm::dvec3> focus_points(std::span<const Geometry> all, const Focus& focus) {
   constexpr std::size_t kPointsPerGeometry = 200;
   std::vector<glm::dvec3> points;
-  for (const Geometry& geometry : scene.geometry) {
+  for (const Geometry& geometry : all) {
     const std::vector<glm::vec3>& positions = geometry.mesh->positions;
     const std::size_t step = positions.size() / kPointsPerGeometry + 1;
     for (std::size_t i = 0; i < positions.size(); i += step) {
@@ -95,13 +105,13 @@ Camera orbit_camera(const Focus& focus, double azimuth, double elevation) {
 
 Focus find_focus(const Scene& scene) {
   Box all;
-  for (const Box& box : subject_boxes(scene)) all.add(box);
+  for (const Box& box : subject_boxes(all_surfaces(scene))) all.add(box);
   if (all.empty() || !(all.diagonal() > 0)) return {};
   return {0.5 * (all.low + all.high), 0.5 * all.diagonal()};
 }
 
 Camera default_camera(const Scene& scene, const PictureScene& picture, const Focus& focus) {
-  const std::vector<glm::dvec3> points = focus_points(scene, focus);
+  const std::vector<glm::dvec3> points = focus_points(all_surfaces(scene), focus);
   std::vector<std::pair<Camera, double>> seen;
   double most = 0;
   for (const double elevation : {27.0, 10.0, 52.0}) {

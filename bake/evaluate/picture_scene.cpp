@@ -27,7 +27,7 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float end) 
 PictureScene::PictureScene(const Scene& scene)
     : scene_(scene),
       world_(
-          scene, [](const Geometry&) { return true; }, Holes::open) {
+          scene, [](const Geometry&) { return true; }, Holes::open, {}, [](const Curves&) { return true; }) {
   // Instances of one mesh share their normals.
   std::map<const Mesh*, std::shared_ptr<const CornerNormals>> known;
   for (const Geometry& geometry : scene.geometry) {
@@ -47,6 +47,13 @@ std::optional<SurfacePoint> PictureScene::trace(const glm::dvec3& origin, const 
   rtcIntersect1(world_.handle(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
+  if (query.hit.geomID >= scene_.geometry.size()) {
+    const glm::vec3 across(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    const glm::vec3 normal = glm::normalize(across);
+    return SurfacePoint{origin + static_cast<double>(query.ray.tfar) * direction,
+                        glm::dot(glm::dvec3(normal), direction) > 0 ? -normal : normal,
+                        scene_.curves[query.hit.geomID - scene_.geometry.size()].base_color};
+  }
   // The point comes from the triangle in doubles: it lies on the surface better than the ray's end.
   const Geometry& geometry = scene_.geometry[query.hit.geomID];
   const glm::uvec3& triangle = geometry.mesh->triangles[query.hit.primID];

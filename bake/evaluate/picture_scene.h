@@ -19,7 +19,8 @@ struct SurfacePoint {
   glm::vec3 colour;     ///< linear RGB
 };
 
-/// All geometry of a scene, casting or not, to be looked at, and through its holes. Any thread may trace.
+/// All geometry and curves of a scene, casting or not, to be looked at, and through its holes. Any thread may
+/// trace.
 class PictureScene {
  public:
   /// Borrows `scene`, which must outlive it. Throws Error (resource) when Embree fails.

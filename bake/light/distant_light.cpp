@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "pdsm/bake/scene.h"
-#include "scene/volume_hull.h"
+#include "scene/caster_hull.h"
 
 namespace pdsm {
 namespace {
@@ -33,8 +33,7 @@ Bounds bounds_along(const Scene& scene, const glm::dmat3& axes) {
   Bounds bounds;
   for (const Geometry& geometry : scene.geometry)
     if (geometry.mesh && (geometry.casts || geometry.receives)) bounds.include(geometry, axes);
-  for (const Volume& volume : scene.volumes)
-    if (casts_shadows(volume)) bounds.include(volume_hull(volume), axes);
+  for (const CasterHull& hull : caster_hulls(scene)) bounds.include(hull.surface, axes);
   return bounds;
 }
 

@@ -17,10 +17,10 @@
 #include "light/fit_face.h"
 #include "light/light_faces.h"
 #include "light/light_geometry.h"
-#include "light/light_in_volume.h"
+#include "light/light_in_hull.h"
 #include "light/light_spread.h"
 #include "pdsm/format/error.h"
-#include "scene/volume_hull.h"
+#include "scene/caster_hull.h"
 
 namespace pdsm {
 namespace {
@@ -135,10 +135,12 @@ void visit_inside(const LightTriangle& triangle, const ConvexRegion& region, Vis
 class ViewFitter {
  public:
   ViewFitter(const Scene& scene, const LightFace& face)
-      : scene_(scene), face_(face), light_(face.light), space_(face.light), spread_(face) {
-    for (const Volume& volume : scene.volumes)
-      if (casts_shadows(volume)) hulls_.push_back(volume_hull(volume));
-  }
+      : scene_(scene),
+        face_(face),
+        light_(face.light),
+        space_(face.light),
+        spread_(face),
+        hulls_(caster_hulls(scene)) {}
 
   [[nodiscard]] FittedView fit() const;
 
@@ -161,11 +163,10 @@ class ViewFitter {
   [[nodiscard]] double fit_near(double nearest, const FittedView& fitted) const;
   [[nodiscard]] Window pad_window(Window window, double deepest) const;
 
-  /// Whether light may begin in a volume: then no surface tells where that begins to cast.
-  [[nodiscard]] bool volume_holds_light(double deepest) const {
-    return std::ranges::any_of(scene_.volumes, [&](const Volume& volume) {
-      return casts_shadows(volume) && may_hold_light(volume, face_, emitter_depth(deepest));
-    });
+  /// Whether light may begin in a hull: then no surface tells where that begins to cast.
+  [[nodiscard]] bool hull_holds_light(double deepest) const {
+    return std::ranges::any_of(
+        hulls_, [&](const CasterHull& hull) { return may_hold_light(hull, face_, emitter_depth(deepest)); });
   }
 
   const Scene& scene_;
@@ -173,7 +174,7 @@ class ViewFitter {
   const Light& light_;
   LightSpace space_;
   LightSpread spread_;
-  std::vector<Geometry> hulls_;  ///< of volumes: casters
+  std::vector<CasterHull> hulls_;  ///< casters
 };
 
 /// Whether light from any point of the emitter can arrive at the front of the triangle; open meshes have
@@ -184,9 +185,10 @@ bool ViewFitter::faces_light(const Geometry& geometry, const LightTriangle& tria
 
 template <typename Visit>
 void ViewFitter::visit_geometry(Role role, Visit&& visit) const {
-  for (const std::vector<Geometry>& all : {std::cref(scene_.geometry), std::cref(hulls_)})
-    for (const Geometry& geometry : all)
-      if (has_role(geometry, role)) visit(geometry);
+  for (const Geometry& geometry : scene_.geometry)
+    if (has_role(geometry, role)) visit(geometry);
+  for (const CasterHull& hull : hulls_)
+    if (has_role(hull.surface, role)) visit(hull.surface);
 }
 
 /// Calls visit(geometry, triangle, polygon) for the part inside `region` of each triangle of that role.
@@ -256,7 +258,7 @@ Window ViewFitter::pad_window(Window window, double deepest) const {
 Window ViewFitter::fit_window(const ReceiverBounds& receivers) const {
   if (receivers.places.empty()) return kDefaultWindow;
   const double deepest = receivers.depth, tolerance = kEmitterSkin * deepest;
-  if (volume_holds_light(deepest)) return pad_window(receivers.places.box, deepest);
+  if (hull_holds_light(deepest)) return pad_window(receivers.places.box, deepest);
   ConvexRegion region = spread_.hull(receivers.places.box, deepest);
   limit_depth(region, emitter_depth(deepest), deepest * (1 - kDepthPad));
 
@@ -288,7 +290,7 @@ Window ViewFitter::fit_window(const ReceiverBounds& receivers) const {
 double ViewFitter::nearest_caster(const Window& window, double deepest, double far) const {
   ConvexRegion region = spread_.hull(window, far);
   limit_depth(region, emitter_depth(far), deepest * (1 - kDepthPad));
-  double nearest = volume_holds_light(far) ? emitter_depth(far) : kInfinity;
+  double nearest = hull_holds_light(far) ? emitter_depth(far) : kInfinity;
   visit_geometry(Role::caster, [&](const Geometry& geometry) {
     space_.visit_triangles(geometry, region, [&](const LightTriangle& triangle) {
       const auto& c = triangle.corners;

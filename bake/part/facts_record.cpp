@@ -30,7 +30,8 @@ enum FactFlag : std::uint32_t {
   kHasTranslucency = 1024,
   kCastsBeforeNear = 2048,
   kHasVolumes = 4096,
-  kAllFlags = 8191
+  kHasCurves = 8192,
+  kAllFlags = 16383
 };
 
 std::uint32_t flags_of(const BakeFacts& facts) {
@@ -41,7 +42,7 @@ std::uint32_t flags_of(const BakeFacts& facts) {
          bit(facts.shift_law, kShiftLaw) | bit(facts.has_cutouts, kHasCutouts) |
          bit(facts.has_emission, kHasEmission) | bit(facts.has_block_keys, kHasBlockKeys) |
          bit(facts.has_translucency, kHasTranslucency) | bit(facts.has_volumes, kHasVolumes) |
-         bit(facts.fitted.casts_before_near, kCastsBeforeNear);
+         bit(facts.has_curves, kHasCurves) | bit(facts.fitted.casts_before_near, kCastsBeforeNear);
 }
 
 void set_flags(std::uint32_t flags, BakeFacts& facts) {
@@ -56,6 +57,7 @@ void set_flags(std::uint32_t flags, BakeFacts& facts) {
   facts.has_cutouts = (flags & kHasCutouts) != 0;
   facts.has_emission = (flags & kHasEmission) != 0;
   facts.has_translucency = (flags & kHasTranslucency) != 0;
+  facts.has_curves = (flags & kHasCurves) != 0;
   facts.has_volumes = (flags & kHasVolumes) != 0;
   facts.has_block_keys = (flags & kHasBlockKeys) != 0;
 }

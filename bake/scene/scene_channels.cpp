@@ -95,6 +95,7 @@ Scene channel_scene(const Scene& scene, std::uint32_t channel) {
   Scene of_channel;
   of_channel.source = scene.source;
   of_channel.volumes = scene.volumes;
+  of_channel.curves = scene.curves;
   for (const Geometry& geometry : scene.geometry)
     of_channel.geometry.push_back(channel_geometry(geometry, channel));
   return of_channel;

@@ -21,6 +21,7 @@
 #include "scene/light_check.h"
 #include "scene/one_line.h"
 #include "scene/part_rules.h"
+#include "scene/read_curves.h"
 #include "scene/read_light.h"
 #include "scene/read_placement.h"
 #include "scene/read_volume.h"
@@ -47,6 +48,8 @@ class SceneReader {
   void read_geometry(const json& node, std::size_t index);
   const ImportedFile& import(const JsonFields& fields);
   void read_lights(const json& nodes);
+  template <typename Read>
+  void read_each(const JsonFields& fields, const char* key, Read&& read_entry);
   std::shared_ptr<const EmissionImage> read_picture(const JsonFields& fields);
   void warn_of(const ImportedFile& file, const std::string& name);
 
@@ -128,20 +131,26 @@ void SceneReader::read_lights(const json& nodes) {
   }
 }
 
+template <typename Read>
+void SceneReader::read_each(const JsonFields& fields, const char* key, Read&& read_entry) {
+  if (!fields.has(key)) return;
+  const json& nodes = fields.array(key);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    read_entry({nodes[i], file_, join_path(key, i)}, path_.parent_path(), files_, scene_);
+}
+
 void SceneReader::read_json() {
   const json root = parse_json(files_.read(path_, kMaxSceneFileBytes), file_);
   const JsonFields fields(root, file_, "");
-  fields.allow_only({"geometry", "volumes", "lights"});
+  fields.allow_only({"geometry", "volumes", "curves", "lights"});
   // Lights first: their faults are told before large files are read.
   if (fields.has("lights")) read_lights(fields.array("lights"));
   if (fields.has("geometry")) {
     const json& nodes = fields.array("geometry");
     for (std::size_t i = 0; i < nodes.size(); ++i) read_geometry(nodes[i], i);
   }
-  if (!fields.has("volumes")) return;
-  const json& nodes = fields.array("volumes");
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    read_volume({nodes[i], file_, join_path("volumes", i)}, path_.parent_path(), files_, scene_);
+  read_each(fields, "volumes", read_volume);
+  read_each(fields, "curves", read_curves);
 }
 
 void SceneReader::read_gltf() {

@@ -51,6 +51,7 @@ BakeFacts gather_facts(const BakeJob& job) {
   facts.has_emission = job.has_emission;
   facts.has_cutouts = job.light_space.has_cutouts();
   facts.has_translucency = job.light_space.has_translucency();
+  facts.has_curves = !job.light_space.curves.empty();
   facts.has_volumes = !job.light_space.volumes.empty();
   facts.has_block_keys = job.options.block_keys && BlockInputs::are_known(job);
   facts.slope_limit_from = job.slope_limit.from;

@@ -31,6 +31,7 @@ struct BakeFacts {
   bool has_cutouts = false;       ///< some caster that the light can see has holes
   bool has_translucency = false;  ///< some caster that the light can see lets light through
   bool has_volumes = false;       ///< it sees some volume
+  bool has_curves = false;        ///< it sees some curves
   bool has_block_keys = false;
   double slope_limit_from = 0;  ///< SlopeLimit; infinite where no slope is limited
   std::uint64_t dropped_triangles = 0;

@@ -50,12 +50,12 @@ class CasterLists {
       return true;
     });
   }
-  /// Marks the blocks that a volume may darken: there is no list of what decides about them.
-  void add(const LightSpaceVolume& volume, double far_depth) {
-    const bool holds_light = volume.begins_before(kEmitterShare * far_depth);
+  /// Marks the blocks that a volume, or curves, may darken: there is no list of what decides about them.
+  void add(const LightSpaceHull& around, double far_depth) {
+    const bool holds_light = around.begins_before(kEmitterShare * far_depth);
     if (holds_light)
       for (BlockCasters& block : lists_) block.is_traced = true;
-    const LightSpaceMesh& hull = volume.hull;
+    const LightSpaceMesh& hull = around.surface;
     for (const glm::uvec3& t : hull.triangles)
       for_each_block(reach_.of({hull.positions[t.x], hull.positions[t.y], hull.positions[t.z]}),
                      [](BlockCasters& block) { return block.is_traced = true; });
@@ -123,8 +123,8 @@ std::vector<BlockCasters> list_casters(const BakeJob& job) {
   const std::size_t count = count_casters(job.light_space);
   const std::size_t threads = job.options.threads;
   std::vector<CasterLists> parts(threads, CasterLists(job, reach, steep));
-  for (const LightSpaceVolume& volume : job.light_space.volumes)
-    parts.front().add(volume, job.grid.far_depth);
+  job.light_space.visit_hulls(
+      [&](const LightSpaceHull& hull) { parts.front().add(hull, job.grid.far_depth); });
 #pragma omp parallel for schedule(static) num_threads(static_cast <int>(threads))
   for (std::size_t n = 0; n < threads; ++n)
     add_casters(job.light_space, count * n / threads, count * (n + 1) / threads, parts[n]);

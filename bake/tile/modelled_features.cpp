@@ -66,6 +66,7 @@ BakeFacts sum_up(const MapFacts& map) {
     sum.is_projected = sum.is_projected && (facts.is_projected || !facts.has_shadows);
     sum.shift_law = sum.shift_law && facts.shift_law;
     sum.has_cutouts = sum.has_cutouts || facts.has_cutouts;
+    sum.has_curves = sum.has_curves || facts.has_curves;
     sum.has_translucency = sum.has_translucency || facts.has_translucency;
     sum.slope_limit_from = std::min(sum.slope_limit_from, facts.slope_limit_from);
   }
@@ -91,6 +92,7 @@ void list_visibility(const BakeFacts& facts, std::uint64_t texels, bool is_one_o
     list.modelled("cutouts", facts.is_projected
                                  ? "casters have holes: they are traced, and all others projected"
                                  : "casters have holes");
+  if (casts && facts.has_curves) list.modelled("curves", "casters are curves: they are traced");
   if (casts && (facts.shift_law || is_one_of_several))
     list.left_out("rays that nothing can darken", "no caster reaches them from anywhere on the light",
                   counted(done.undarkened_texels * samples, "walks of ") + std::to_string(texels * samples));

@@ -134,6 +134,22 @@ void add_volumes(KeyHash& hash, const BakeSetup& setup) {
   }
 }
 
+/// What marks that curves follow.
+constexpr std::uint64_t kCurvesFollow = 0x7365767275637f73U;
+
+/// Nothing where there are none.
+void add_curves(KeyHash& hash, const LightSpaceScene& scene) {
+  if (scene.curves.empty()) return;
+  static_assert(sizeof(glm::vec4) == 4 * sizeof(float));
+  hash.add(kCurvesFollow);
+  hash.add(std::uint64_t{scene.curves.size()});
+  for (const LightSpaceCurves& curves : scene.curves) {
+    hash.add(curves.shape);
+    hash.add(std::span(curves.points));
+    hash.add(std::span(curves.segments));
+  }
+}
+
 }  // namespace
 
 void add_setup(KeyHash& hash, const BakeSetup& setup, const Light& light, const std::string& isa,
@@ -163,6 +179,7 @@ std::string setup_key(std::span<const BakeSetup* const> views, const Light& ligh
     add_setup(hash, *setup, light, isa, version);
     add_scene(hash, setup->light_space);
     add_volumes(hash, *setup);
+    add_curves(hash, setup->light_space);
   }
   const auto [high, low] = hash.digest();
   return fmt::format("{:016x}{:016x}", high, low);

@@ -87,7 +87,7 @@ class CellMarker {
     for (const LightSpaceMesh& mesh : input_.scene.meshes) {
       if (mesh.casts) mark_mesh(mesh);
     }
-    for (const LightSpaceVolume& volume : input_.scene.volumes) mark_volume(volume);
+    input_.scene.visit_hulls([this](const LightSpaceHull& hull) { mark_hull(hull); });
     find_idle_casters();
     return std::move(cells_);
   }
@@ -122,12 +122,12 @@ class CellMarker {
     return true;
   }
 
-  /// What a volume darkens, it does through its hull, unless light begins within.
-  void mark_volume(const LightSpaceVolume& volume) {
-    if (volume.begins_before(std::max(kEmitterShare * input_.grid.far_depth, input_.light.max_z)))
+  /// What is in a hull darkens through its surface, unless light begins within.
+  void mark_hull(const LightSpaceHull& hull) {
+    if (hull.begins_before(std::max(kEmitterShare * input_.grid.far_depth, input_.light.max_z)))
       std::ranges::fill(cells_.dark, std::uint8_t{1});
     else
-      mark_mesh(volume.hull);
+      mark_mesh(hull.surface);
   }
 
   /// Each thread marks cells of its own; a mark never depends on other marks.

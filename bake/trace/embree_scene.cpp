@@ -51,6 +51,19 @@ RTCGeometry make_geometry(RTCDevice device, const LightSpaceMesh& mesh) {
   return geometry;
 }
 
+RTCGeometry make_geometry(RTCDevice device, const LightSpaceCurves& curves) {
+  RTCGeometry geometry =
+      rtcNewGeometry(device, curves.shape == CurveShape::round ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE
+                                                               : RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves.points.data(), 0,
+                             sizeof(glm::vec4), curves.points.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(), 0,
+                             sizeof(std::uint32_t), curves.segments.size());
+  rtcSetGeometryMask(geometry, kCutoutMask);
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
 RTCScene new_scene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
   // Without the robust flag rays slip through the shared edges of a closed mesh.
@@ -78,7 +91,7 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
   if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device for " + config);
   rtcSetDeviceErrorFunction(device_, throw_embree_error, nullptr);
   scene_ = new_scene(device_);
-  if (scene.has_cutouts()) cutouts_ = new_scene(device_);
+  if (scene.has_cutouts() || !scene.curves.empty()) cutouts_ = new_scene(device_);
   if (scene.has_translucency()) translucent_ = new_scene(device_);
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const LightSpaceMesh& mesh = scene.meshes[i];
@@ -87,6 +100,13 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
     if (mesh.is_cutout_caster()) rtcAttachGeometryByID(cutouts_, geometry, static_cast<unsigned>(i));
     if (mesh.is_translucent_caster()) rtcAttachGeometryByID(translucent_, geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+  for (std::size_t i = 0; i < scene.curves.size(); ++i) {
+    RTCGeometry geometry = make_geometry(device_, scene.curves[i]);
+    const auto id = static_cast<unsigned>(scene.meshes.size() + i);
+    rtcAttachGeometryByID(scene_, geometry, id);
+    rtcAttachGeometryByID(cutouts_, geometry, id);
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(scene_);

@@ -9,8 +9,9 @@
 
 namespace pdsm {
 
-/// Ray masks of the baker's scene: casters that are whole, receivers, casters with holes, casters that let a
-/// part of the light through. Rays that ask for casters with holes carry CutoutRays (trace/cutout_holes.h).
+/// Ray masks of the baker's scene: casters that are whole, receivers, casters with holes and curves, casters
+/// that let a part of the light through. Rays that ask for casters with holes carry CutoutRays
+/// (trace/cutout_holes.h).
 inline constexpr unsigned kCasterMask = 1, kReceiverMask = 2, kCutoutMask = 4, kTranslucentMask = 8;
 
 /// The ISA that Embree will use when asked for `wanted` (empty: the best of this machine). Throws Error
@@ -27,7 +28,8 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   [[nodiscard]] RTCScene handle() const { return scene_; }
-  /// The casters with holes alone; null where there are none.
+  /// The casters with holes and curves alone; null where there are none. Curves have the ids behind those of
+  /// all meshes.
   [[nodiscard]] RTCScene cutouts() const { return cutouts_; }
   /// The translucent casters alone; null where there are none.
   [[nodiscard]] RTCScene translucent() const { return translucent_; }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/caster_hull.h"
 #include "scene/scene_channels.h"
-#include "scene/volume_hull.h"
 
 namespace pdsm {
 namespace {
@@ -58,20 +58,39 @@ LightSpaceMesh move_mesh(const Geometry& geometry, const glm::dmat4& world_to_li
   return mesh;
 }
 
+LightSpaceHull move_hull(const CasterHull& hull, const glm::dmat4& world_to_light) {
+  std::uint64_t dropped = 0;
+  return {move_mesh(hull.surface, world_to_light, dropped)};
+}
+
 LightSpaceVolume move_volume(const Volume& volume, const glm::dmat4& world_to_light) {
   LightSpaceVolume moved;
   moved.grid = volume.grid;
   moved.light_to_index = glm::inverse(world_to_light * volume.index_to_world);
   moved.extinction = volume.extinction;
-  std::uint64_t dropped = 0;
-  moved.hull = move_mesh(volume_hull(volume), world_to_light, dropped);
+  moved.hull = move_hull(volume_hull(volume), world_to_light);
+  return moved;
+}
+
+LightSpaceCurves move_curves(const Curves& curves, const glm::dmat4& world_to_light) {
+  LightSpaceCurves moved;
+  const glm::dmat4 local_to_light = world_to_light * curves.local_to_world;
+  const double scale = length_scale(curves.local_to_world);
+  // Embree loads 16 bytes a point, which it has.
+  for (const glm::vec4& p : curves.strands->points) {
+    const glm::dvec3 at(local_to_light * glm::dvec4(p.x, p.y, p.z, 1.0));
+    moved.points.emplace_back(glm::vec3(at), static_cast<float>(scale * static_cast<double>(p.w)));
+  }
+  moved.segments = curves.strands->segments;
+  moved.shape = curves.shape;
+  moved.hull = move_hull(curve_hull(curves), world_to_light);
   return moved;
 }
 
 }  // namespace
 
-bool LightSpaceVolume::begins_before(double depth) const {
-  return std::ranges::any_of(hull.positions,
+bool LightSpaceHull::begins_before(double depth) const {
+  return std::ranges::any_of(surface.positions,
                              [&](const glm::vec3& p) { return static_cast<double>(p.z) <= depth; });
 }
 
@@ -106,6 +125,10 @@ LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_t
   for (const Volume& volume : scene.volumes) {
     check_volume(volume);
     if (casts_shadows(volume)) result.volumes.push_back(move_volume(volume, matrix));
+  }
+  for (const Curves& curves : scene.curves) {
+    check_curves(curves);
+    if (casts_shadows(curves)) result.curves.push_back(move_curves(curves, matrix));
   }
   return result;
 }

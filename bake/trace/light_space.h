@@ -32,15 +32,28 @@ struct LightSpaceMesh {
   [[nodiscard]] bool has_holes() const { return mask != nullptr && !mask->blends; }
 };
 
+/// Around all of a caster that is no mesh (scene/caster_hull.h).
+struct LightSpaceHull {
+  LightSpaceMesh surface;
+
+  /// Whether it reaches before `depth`, so that light may begin in it.
+  [[nodiscard]] bool begins_before(double depth) const;
+};
+
 /// One volume of a scene, that casts, as a light sees it.
 struct LightSpaceVolume {
   std::shared_ptr<const DensityGrid> grid;
   glm::dmat4 light_to_index{1.0};
   double extinction = 0;
-  LightSpaceMesh hull;  ///< around all of it (scene/volume_hull.h)
+  LightSpaceHull hull;
+};
 
-  /// Whether it reaches before `depth`, so that light may begin in it.
-  [[nodiscard]] bool begins_before(double depth) const;
+/// One set of curves, that casts, as a light sees it.
+struct LightSpaceCurves {
+  std::vector<glm::vec4> points;  ///< and radii
+  std::vector<std::uint32_t> segments;
+  CurveShape shape = CurveShape::round;
+  LightSpaceHull hull;
 };
 
 /// The scene as one light sees it. Triangles with coordinates or places in a mask that are not finite are
@@ -48,6 +61,7 @@ struct LightSpaceVolume {
 struct LightSpaceScene {
   std::vector<LightSpaceMesh> meshes;
   std::vector<LightSpaceVolume> volumes;
+  std::vector<LightSpaceCurves> curves;
   std::uint64_t triangles = 0, dropped_triangles = 0;
 
   /// Whether any caster has holes.
@@ -56,11 +70,18 @@ struct LightSpaceScene {
   [[nodiscard]] bool has_translucency() const;
   /// Whether channels differ behind some caster.
   [[nodiscard]] bool is_coloured() const;
+  /// Calls visit(const LightSpaceHull&) for that of each volume, and of all curves.
+  template <typename Visit>
+  void visit_hulls(Visit&& visit) const {
+    for (const LightSpaceVolume& volume : volumes) visit(volume.hull);
+    for (const LightSpaceCurves& of_file : curves) visit(of_file.hull);
+  }
   /// Whether light samples have layers before what is opaque: casters of either kind.
   [[nodiscard]] bool has_layers() const { return has_translucency() || !volumes.empty(); }
 };
 
-/// The scene as light of `channel` (0 .. 2) meets it. Throws as check_mask() and check_volume() do.
+/// The scene as light of `channel` (0 .. 2) meets it. Throws as check_mask(), check_volume() and
+/// check_curves() do.
 [[nodiscard]] LightSpaceScene to_light_space(const Scene& scene, const RigidTransform& world_to_light,
                                              std::uint32_t channel = 0);
 

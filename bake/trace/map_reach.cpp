@@ -44,9 +44,9 @@ void keep_within(LightSpaceMesh& mesh, const ConvexRegion& region) {
   drop_unused_vertices(mesh);
 }
 
-bool lies_outside(const LightSpaceVolume& volume, const ConvexRegion& region) {
+bool lies_outside(const LightSpaceHull& hull, const ConvexRegion& region) {
   std::uint32_t outside = ~std::uint32_t{0};
-  for (const glm::vec3& p : volume.hull.positions) outside &= region.outside_bits(glm::dvec3(p));
+  for (const glm::vec3& p : hull.surface.positions) outside &= region.outside_bits(glm::dvec3(p));
   return outside != 0;
 }
 
@@ -73,7 +73,9 @@ void keep_within(LightSpaceScene& scene, const ConvexRegion& region) {
     scene.triangles += mesh.triangles.size();
   }
   std::erase_if(scene.meshes, [](const LightSpaceMesh& mesh) { return mesh.triangles.empty(); });
-  std::erase_if(scene.volumes, [&](const LightSpaceVolume& volume) { return lies_outside(volume, region); });
+  const auto misses = [&](const auto& caster) { return lies_outside(caster.hull, region); };
+  std::erase_if(scene.volumes, misses);
+  std::erase_if(scene.curves, misses);
 }
 
 }  // namespace pdsm

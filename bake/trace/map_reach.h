@@ -16,7 +16,8 @@ namespace pdsm {
 [[nodiscard]] ConvexRegion map_reach(const LightFace& face, const MapGrid& grid);
 
 /// Leaves out the triangles that lie on the outer side of one of the region's planes as a whole, then the
-/// vertices and meshes that no triangle is left of, and volumes that lie so as a whole. Order is kept.
+/// vertices and meshes that no triangle is left of, and volumes and curves that lie so as a whole. Order is
+/// kept.
 void keep_within(LightSpaceScene& scene, const ConvexRegion& region);
 
 }  // namespace pdsm

@@ -44,10 +44,14 @@ float SurfaceBias::of_plane(const RTCRayHit16& packet, int lane) const {
 void SurfaceBias::slope_biases(const RTCRayHit16& packet, float* slopes) const {
   bool any_steep = false;
   for (int lane = 0; lane < kLanes; ++lane) {
-    slopes[lane] = met(packet, lane) ? of_plane(packet, lane) : 0.0F;
+    slopes[lane] = met(packet, lane) && !is_curve(packet, lane) ? of_plane(packet, lane) : 0.0F;
     any_steep = any_steep || slopes[lane] > limited_from_;
   }
   if (any_steep) keep_before_next_receiver(packet, slopes);
+}
+
+bool SurfaceBias::is_curve(const RTCRayHit16& packet, int lane) const {
+  return packet.hit.geomID[lane] >= scene_.geometry().meshes.size();
 }
 
 void SurfaceBias::keep_before_next_receiver(const RTCRayHit16& packet, float* slopes) const {

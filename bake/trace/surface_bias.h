@@ -44,6 +44,8 @@ class SurfaceBias {
 
  private:
   [[nodiscard]] float of_plane(const RTCRayHit16& packet, int lane) const;
+  /// Curves receive nothing, and so need no bias for slopes.
+  [[nodiscard]] bool is_curve(const RTCRayHit16& packet, int lane) const;
   void keep_before_next_receiver(const RTCRayHit16& packet, float* slopes) const;
 
   const EmbreeScene& scene_;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/volume_hull.h"
+#include "scene/caster_hull.h"
 
 namespace pdsm {
 namespace {

@@ -49,15 +49,17 @@ struct ChannelRays::RayContext {
   const CasterBias* bias;
   const RigidTransform* world_to_light;
   const TranslucentSurfaces* translucent;
+  unsigned curve_ids;                                                 ///< the first
   std::array<TranslucentSurfaces::Crossings, kPacketSize> crossings;  ///< by lane
 
   [[nodiscard]] glm::dvec3 to_light(const glm::dvec3& v) const { return rotate(*world_to_light, v); }
 
   /// Whether a caster met at `t` by the ray of `lane` is so near that its shadow begins behind the point.
-  [[nodiscard]] bool ignores(unsigned lane, double t, const glm::dvec3& normal) const {
+  [[nodiscard]] bool ignores(unsigned lane, double t, bool is_curve, const glm::dvec3& normal) const {
     const LightPoint& from = packet->light_point[lane];
     const double depth = packet->rise[lane];
     const glm::dvec3 to_caster = -glm::dvec3(packet->direction[lane]) / depth;  // a metre of depth
+    if (is_curve) return t * depth <= bias->constant;
     double slope = slope_bias(*bias, from, to_light(normal), to_light(to_caster), (1 - t) * depth);
     if (bias->behind != nullptr && slope > bias->limited_from) {
       const double near = std::max(bias->same_surface * bias->constant, bias->least_gap * (1 - t) * depth);
@@ -78,7 +80,8 @@ struct ChannelRays::RayContext {
                               RTCHitN_Ng_z(args->hit, n, i));
       const auto t = static_cast<double>(RTCRayN_tfar(args->ray, n, i));
       const unsigned lane = RTCRayN_id(args->ray, n, i);
-      if ((self.bias != nullptr && self.ignores(lane, t, normal)) ||
+      const bool is_curve = RTCHitN_geomID(args->hit, n, i) >= self.curve_ids;
+      if ((self.bias != nullptr && self.ignores(lane, t, is_curve, normal)) ||
           self.translucent->cross(*args, i, self.crossings[lane]))
         args->valid[i] = 0;
     }
@@ -104,12 +107,15 @@ ChannelRays::ChannelRays(const Scene& scene, const Light& light, double near_dep
                                                 : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
-      casters_(scene, is_caster, Holes::open,
-               [this](const std::array<glm::dvec3, 3>& corners) {
-                 return std::any_of(corners.begin(), corners.end(), [this](const glm::dvec3& corner) {
-                   return apply(world_to_light_, corner).z > emitter_depth_;
-                 });
-               }),
+      casters_(
+          scene, is_caster, Holes::open,
+          [this](const std::array<glm::dvec3, 3>& corners) {
+            return std::any_of(corners.begin(), corners.end(), [this](const glm::dvec3& corner) {
+              return apply(world_to_light_, corner).z > emitter_depth_;
+            });
+          },
+          [](const Curves& curves) { return casts_shadows(curves); }),
+      curve_ids_(static_cast<unsigned>(scene.geometry.size())),
       translucent_(scene, casters_),
       volumes_(scene) {}
 
@@ -198,7 +204,7 @@ double ChannelRays::sum_blocked(const Packet& packet, const CasterBias* bias) co
     rays.mask[i] = ~0U;
     rays.id[i] = i;
   }
-  RayContext context{{}, &packet, bias, &world_to_light_, &translucent_, {}};
+  RayContext context{{}, &packet, bias, &world_to_light_, &translucent_, curve_ids_, {}};
   rtcInitIntersectContext(&context.context);
   context.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   if (bias != nullptr || !translucent_.empty()) context.context.filter = RayContext::filter;

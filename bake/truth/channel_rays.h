@@ -53,6 +53,7 @@ class ChannelRays {
   std::optional<double> sphere_radius_;
   double emitter_depth_;  ///< light-space z up to which nothing blocks
   WorldScene casters_;
+  unsigned curve_ids_;  ///< the first, of the casters
   TranslucentSurfaces translucent_;
   VolumeShadows volumes_;
 };

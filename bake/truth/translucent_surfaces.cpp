@@ -38,6 +38,7 @@ bool TranslucentSurfaces::cross(const RTCFilterFunctionNArguments& args, unsigne
                                 Crossings& crossings) const {
   if (empty()) return false;
   const unsigned n = args.N, id = RTCHitN_geomID(args.hit, n, lane);
+  if (id >= surfaces_.size()) return false;  // curves are opaque
   const Surface& surface = surfaces_[id];
   if (surface.is_opaque()) return false;
   const float u = RTCHitN_u(args.hit, n, lane), v = RTCHitN_v(args.hit, n, lane);

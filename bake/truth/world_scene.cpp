@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "truth/world_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,18 +14,21 @@ namespace pdsm {
 namespace {
 
 /// Centre of the bounds of all finite vertices of the kept geometry; the origin when there are none.
-glm::dvec3 bounds_centre(const Scene& scene, const std::function<bool(const Geometry&)>& keep) {
+glm::dvec3 bounds_centre(const Scene& scene, const std::function<bool(const Geometry&)>& keep,
+                         const KeepCurves& keep_curves) {
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high(-std::numeric_limits<double>::infinity());
-  for (const Geometry& geometry : scene.geometry) {
-    if (!keep(geometry)) continue;
-    for (const glm::vec3& position : geometry.mesh->positions) {
-      const glm::dvec3 world = to_world(geometry, position);
-      if (!std::isfinite(world.x + world.y + world.z)) continue;
-      low = glm::min(low, world);
-      high = glm::max(high, world);
-    }
-  }
+  const auto include = [&](const glm::dvec3& world) {
+    if (!std::isfinite(world.x + world.y + world.z)) return;
+    low = glm::min(low, world);
+    high = glm::max(high, world);
+  };
+  for (const Geometry& geometry : scene.geometry)
+    if (keep(geometry))
+      for (const glm::vec3& position : geometry.mesh->positions) include(to_world(geometry, position));
+  for (const Curves& curves : scene.curves)
+    if (keep_curves && keep_curves(curves) && curves.strands)
+      for (const glm::vec4& point : curves.strands->points) include(to_world(curves, glm::vec3(point)));
   return low.x <= high.x ? 0.5 * (low + high) : glm::dvec3(0);
 }
 
@@ -57,6 +61,10 @@ glm::dvec3 to_world(const Geometry& geometry, const glm::vec3& position) {
   return glm::dvec3(geometry.local_to_world * glm::dvec4(glm::dvec3(position), 1.0));
 }
 
+glm::dvec3 to_world(const Curves& curves, const glm::vec3& position) {
+  return glm::dvec3(curves.local_to_world * glm::dvec4(glm::dvec3(position), 1.0));
+}
+
 /// What the filter of a geometry with a mask knows.
 struct WorldScene::Cutout {
   RTCGeometry geometry;
@@ -78,8 +86,8 @@ struct WorldScene::Cutout {
 WorldScene::~WorldScene() = default;
 
 WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep, Holes holes,
-                       const KeepTriangle& keep_triangle)
-    : device_(rtcNewDevice(nullptr)), centre_(bounds_centre(scene, keep)) {
+                       const KeepTriangle& keep_triangle, const KeepCurves& keep_curves)
+    : device_(rtcNewDevice(nullptr)), centre_(bounds_centre(scene, keep, keep_curves)) {
   if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device");
   rtcSetDeviceErrorFunction(device_.get(), throw_embree_error, nullptr);
   scene_.reset(rtcNewScene(device_.get()));
@@ -88,7 +96,33 @@ WorldScene::WorldScene(const Scene& scene, const std::function<bool(const Geomet
   for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
     if (keep(scene.geometry[i])) attach(scene.geometry[i], static_cast<unsigned>(i), holes, keep_triangle);
   }
+  for (std::size_t i = 0; i < scene.curves.size() && keep_curves; ++i)
+    if (keep_curves(scene.curves[i]))
+      attach(scene.curves[i], static_cast<unsigned>(scene.geometry.size() + i));
   rtcCommitScene(scene_.get());
+}
+
+void WorldScene::attach(const Curves& curves, unsigned id) {
+  check_curves(curves);
+  const Strands& strands = *curves.strands;
+  if (strands.segments.empty()) return;
+  const double scale = length_scale(curves.local_to_world);
+  RTCGeometry target =
+      rtcNewGeometry(device_.get(), curves.shape == CurveShape::round ? RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE
+                                                                      : RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
+  auto* points =
+      new_buffer<glm::vec4>(target, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, strands.points.size());
+  for (std::size_t i = 0; i < strands.points.size(); ++i) {
+    const glm::vec4& p = strands.points[i];
+    points[i] = glm::vec4(glm::vec3(to_world(curves, glm::vec3(p)) - centre_),
+                          static_cast<float>(scale * static_cast<double>(p.w)));
+  }
+  auto* segments =
+      new_buffer<std::uint32_t>(target, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, strands.segments.size());
+  std::ranges::copy(strands.segments, segments);
+  rtcCommitGeometry(target);
+  rtcAttachGeometryByID(scene_.get(), target, id);
+  rtcReleaseGeometry(target);
 }
 
 void WorldScene::attach(const Geometry& geometry, unsigned id, Holes holes,

@@ -19,17 +19,21 @@ enum class Holes { filled, open };
 /// Which triangle of a scene, given by its corners in world space, goes into a WorldScene.
 using KeepTriangle = std::function<bool(const std::array<glm::dvec3, 3>&)>;
 
-/// A scene's triangles in Embree, in world space about the centre of their bounds, so that a scene far
-/// from the origin loses no digits. It has nothing in common with the baker's own light-space scene: what
-/// is measured and what measures must not share their mistakes. Any thread may trace once it stands.
-/// Geometry n of the scene has the geometry id n; its triangles keep their numbers unless some are left out.
+/// Which curves do; empty: none.
+using KeepCurves = std::function<bool(const Curves&)>;
+
+/// A scene's triangles, and curves, in Embree, in world space about the centre of their bounds, so that a
+/// scene far from the origin loses no digits. It has nothing in common with the baker's own light-space
+/// scene: what is measured and what measures must not share their mistakes. Any thread may trace once it
+/// stands. Geometry n of the scene has the geometry id n; its triangles keep their numbers unless some are
+/// left out. Curves have the ids behind.
 class WorldScene {
  public:
   /// Holds the geometry that `keep` accepts. Borrows its masks. Throws Error (resource) when Embree fails,
   /// and as check_mask() does.
   ~WorldScene();
   WorldScene(const Scene& scene, const std::function<bool(const Geometry&)>& keep, Holes holes,
-             const KeepTriangle& keep_triangle = {});
+             const KeepTriangle& keep_triangle = {}, const KeepCurves& keep_curves = {});
 
   [[nodiscard]] RTCScene handle() const { return scene_.get(); }
   /// (u, v) in the mask of a geometry at a hit's weights of the triangle's second and third corner.
@@ -48,6 +52,7 @@ class WorldScene {
   struct Cutout;
 
   void attach(const Geometry& geometry, unsigned id, Holes holes, const KeepTriangle& keep_triangle);
+  void attach(const Curves& curves, unsigned id);
   void cut_out(RTCGeometry target, const Mesh& mesh);
 
   std::vector<std::unique_ptr<const Cutout>> cutouts_;  ///< that filters ask, as long as there are rays
@@ -58,5 +63,6 @@ class WorldScene {
 
 /// A point of a geometry's local space in the world, metres.
 [[nodiscard]] glm::dvec3 to_world(const Geometry& geometry, const glm::vec3& position);
+[[nodiscard]] glm::dvec3 to_world(const Curves& curves, const glm::vec3& position);
 
 }  // namespace pdsm

@@ -2,8 +2,6 @@
 // Maps of several views: frames, and the same bytes whatever way they are baked.
 #include <gtest/gtest.h>
 
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include "light/light_faces.h"
@@ -14,9 +12,9 @@
 #include "scratch_folder.h"
 #include "support/baked_functions.h"
 #include "support/checkpoint_case.h"
+#include "support/job_blocks.h"
 #include "support/random.h"
 #include "support/scenes.h"
-#include "tile/tile_run.h"
 
 namespace pdsm::test {
 namespace {
@@ -112,22 +110,6 @@ TEST_P(SeveralViews, ThreadsAndTilesChangeNothing) {
   }
 }
 
-/// All functions of a job, by block.
-std::map<std::uint32_t, FunctionBlock> bake_view(const BakeJob& job, bool finds_cells) {
-  TileInput input = job.tile_input();
-  input.finds_cells = finds_cells;
-  std::map<std::uint32_t, FunctionBlock> blocks;
-  std::mutex mutex;
-  TileRun run(job, input,
-              {[&](FittedBlock&& block) {
-                 const std::lock_guard guard(mutex);
-                 blocks[block.index] = std::move(block.levels.front());
-               },
-               {}});
-  run.run();
-  return blocks;
-}
-
 TEST_P(SeveralViews, RaysThatAreLeftOutHaveNoEvents) {
   BakeOptions options = options_of_size(150);
   options.mip_levels = 0;
@@ -136,7 +118,7 @@ TEST_P(SeveralViews, RaysThatAreLeftOutHaveNoEvents) {
     const BakeJob job(surrounded(), light(), options, {}, {view, 0});
     if (job.shift_law()) continue;
     ++views;
-    EXPECT_EQ(bake_view(job, true), bake_view(job, false)) << view;
+    EXPECT_EQ(job_blocks(job, true), job_blocks(job, false)) << view;
   }
   EXPECT_GE(views, 4U);
 }

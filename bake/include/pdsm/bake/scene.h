@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "pdsm/bake/curves.h"
 #include "pdsm/bake/volume.h"
 #include "pdsm/format/penumbra_map.h"
 
@@ -146,6 +147,7 @@ struct Scene {
   std::string source;  ///< path of the scene file, for messages; may be empty
   std::vector<Geometry> geometry;
   std::vector<Volume> volumes;
+  std::vector<Curves> curves;
   std::vector<Light> lights;
   std::uint64_t content_hash = 0;  ///< XXH3 of scene file and all files it names, in order; 0 in memory
   std::vector<std::filesystem::path> files;  ///< that were read for it, in order, each once
