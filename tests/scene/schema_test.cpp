@@ -55,6 +55,13 @@ TEST(Schema, ListsTheKeysOfVolumes) {
   EXPECT_EQ(keys_told(folder.fault_of(R"({"volumes": [{"?": 1}]})")), listed);
 }
 
+TEST(Schema, ListsTheKeysOfCurves) {
+  const SceneFolder folder;
+  Keys listed;
+  add_keys(listed, schema()["$defs"]["curves"]["properties"]);
+  EXPECT_EQ(keys_told(folder.fault_of(R"({"curves": [{"?": 1}]})")), listed);
+}
+
 TEST(Schema, ListsTheKeysOfPartRules) {
   const SceneFolder folder;
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
