@@ -103,6 +103,10 @@ std::vector<glm::vec2> read_texture_places(const tinygltf::Model& model, int acc
   return read_vectors<glm::vec2>(model, accessor, TINYGLTF_TYPE_VEC2, "VEC2");
 }
 
+std::vector<glm::vec4> read_rotations(const tinygltf::Model& model, int accessor) {
+  return read_vectors<glm::vec4>(model, accessor, TINYGLTF_TYPE_VEC4, "VEC4");
+}
+
 std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor_index) {
   const tinygltf::Accessor& accessor = element(model.accessors, accessor_index, "accessors");
   std::vector<std::uint32_t> indices;

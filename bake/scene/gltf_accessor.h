@@ -16,6 +16,9 @@ namespace pdsm {
 /// The places of a VEC2 accessor, of the same types. Same faults.
 [[nodiscard]] std::vector<glm::vec2> read_texture_places(const tinygltf::Model& model, int accessor);
 
+/// The quaternions (x, y, z, w) of a VEC4 accessor, of the same types. Same faults.
+[[nodiscard]] std::vector<glm::vec4> read_rotations(const tinygltf::Model& model, int accessor);
+
 /// The indices of a SCALAR accessor of unsigned integers. Same faults.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor);
 

@@ -19,6 +19,7 @@
 #include "scene/gltf_cutouts.h"
 #include "scene/gltf_element.h"
 #include "scene/gltf_lights.h"
+#include "scene/gltf_transform.h"
 #include "scene/json_document.h"
 #include "scene/one_line.h"
 #include "scene/tiny_gltf.h"
@@ -29,7 +30,8 @@ namespace {
 // What a file may demand of its reader and this one fulfils or may ignore, as only shapes are wanted, and
 // what is cut out of them.
 constexpr std::array kIgnorableExtensions = {"KHR_mesh_quantization", "KHR_texture_transform",
-                                             "KHR_lights_punctual", "EXT_lights_area"};
+                                             "KHR_lights_punctual", "EXT_lights_area",
+                                             "EXT_mesh_gpu_instancing"};
 
 bool is_image_name(const std::filesystem::path& path) {
   return std::ranges::any_of(std::array{".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".basis"},
@@ -155,45 +157,6 @@ std::string material_name(const tinygltf::Model& model, int index) {
   return material != nullptr ? material->name : "";
 }
 
-glm::dmat4 rotation_matrix(const std::vector<double>& quaternion) {
-  const double length =
-      std::sqrt(std::inner_product(quaternion.begin(), quaternion.end(), quaternion.begin(), 0.0));
-  if (!(length > 0)) return glm::dmat4(1.0);
-  const double x = quaternion[0] / length, y = quaternion[1] / length, z = quaternion[2] / length,
-               w = quaternion[3] / length;
-  return {1 - 2 * (y * y + z * z),
-          2 * (x * y + z * w),
-          2 * (x * z - y * w),
-          0,
-          2 * (x * y - z * w),
-          1 - 2 * (x * x + z * z),
-          2 * (y * z + x * w),
-          0,
-          2 * (x * z + y * w),
-          2 * (y * z - x * w),
-          1 - 2 * (x * x + y * y),
-          0,
-          0,
-          0,
-          0,
-          1};
-}
-
-glm::dmat4 node_matrix(const tinygltf::Node& node) {
-  glm::dmat4 m(1.0);
-  if (node.matrix.size() == 16) {
-    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-    return m;
-  }
-  if (node.rotation.size() == 4) m = rotation_matrix(node.rotation);
-  for (int column = 0; column < 3; ++column) {
-    const auto i = static_cast<std::size_t>(column);
-    if (node.scale.size() == 3) m[column] *= node.scale[i];
-    if (node.translation.size() == 3) m[3][column] = node.translation[i];
-  }
-  return m;
-}
-
 /// The nodes to begin with: those of the default scene, or without scenes all that are no one's child.
 std::vector<int> root_nodes(const tinygltf::Model& model) {
   if (!model.scenes.empty()) {
@@ -269,6 +232,7 @@ class NodeWalk {
   void add_mesh(const tinygltf::Node& node, const std::vector<std::string>& nodes,
                 const glm::dmat4& node_to_file) {
     const tinygltf::Mesh& source = element(model_.meshes, node.mesh, "meshes");
+    const std::vector<glm::dmat4> instances = instance_matrices(model_, node);
     PartNames names{nodes, ""};
     if (node.name.empty()) names.nodes.front() = source.name;
     auto& primitives = meshes_[static_cast<std::size_t>(node.mesh)];
@@ -276,8 +240,9 @@ class NodeWalk {
       const int material = source.primitives[p].material;
       names.material = material_name(model_, material);
       if (primitives.size() == p) primitives.push_back(read(source.primitives[p], names));
-      parts_.add(names, primitives[p], node_to_file, base_color(model_, material),
-                 cutouts_.translucency(material));
+      for (const glm::dmat4& instance : instances)
+        parts_.add(names, primitives[p], node_to_file * instance, base_color(model_, material),
+                   cutouts_.translucency(material));
     }
   }
 

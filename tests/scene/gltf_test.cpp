@@ -81,6 +81,53 @@ TEST_F(GltfTest, IndexedTriangles) {
   EXPECT_EQ(parts[0].base_color, Geometry{}.base_color);
 }
 
+/// Adds an attribute of instances, as accessor `index`.
+void add_attribute(json& gltf, std::string& buffer, const char* name, const std::vector<float>& values,
+                   int axes) {
+  const std::size_t index = gltf["accessors"].size();
+  gltf["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", 4 * values.size()}});
+  gltf["accessors"].push_back({{"bufferView", index},
+                               {"componentType", 5126},
+                               {"count", values.size() / static_cast<std::size_t>(axes)},
+                               {"type", axes == 3 ? "VEC3" : "VEC4"}});
+  buffer += bytes_of(values);
+  gltf["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"][name] = index;
+}
+
+TEST_F(GltfTest, InstancesOfAMesh) {
+  gltf_["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  gltf_["nodes"][0]["translation"] = {0, 0, 7};
+  add_attribute(gltf_, buffer_, "TRANSLATION", {1, 0, 0, 0, 5, 0}, 3);
+  add_attribute(gltf_, buffer_, "SCALE", {1, 1, 1, 2, 2, 2}, 3);
+  // Half a turn about z, and none.
+  add_attribute(gltf_, buffer_, "ROTATION", {0, 0, 1, 0, 0, 0, 0, 1}, 4);
+  const std::vector<Geometry> parts = import();
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].mesh, parts[1].mesh);
+  const auto at = [&](std::size_t n) { return glm::dvec3(parts[n].local_to_world * glm::dvec4(1, 0, 0, 1)); };
+  EXPECT_EQ(at(0), glm::dvec3(0, 0, 7));
+  EXPECT_EQ(at(1), glm::dvec3(2, 5, 7));
+}
+
+TEST_F(GltfTest, InstancesThatCannotBe) {
+  add_attribute(gltf_, buffer_, "TRANSLATION", {1, 0, 0, 0, 5, 0}, 3);
+  const json good = gltf_;
+  add_attribute(gltf_, buffer_, "SCALE", {1, 1, 1}, 3);
+  EXPECT_NE(fault().find("attributes of different lengths"), std::string::npos);
+  gltf_ = good;
+  json& extension = gltf_["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"];
+  for (const json& index : {json(-1), json("0"), json(1.5)}) {
+    extension["attributes"]["TRANSLATION"] = index;
+    EXPECT_NE(fault().find("an attribute that is no accessor"), std::string::npos) << index;
+  }
+  extension["attributes"]["TRANSLATION"] = 99;
+  EXPECT_NE(fault().find("accessors[99] does not exist"), std::string::npos);
+  extension.erase("attributes");
+  extension["other"] = 1;
+  EXPECT_NE(fault().find("has no attributes"), std::string::npos);
+}
+
 TEST_F(GltfTest, IndicesOfEveryWidth) {
   const std::vector<std::uint8_t> narrow(kFaces.begin(), kFaces.end());
   const std::vector<std::uint32_t> wide(kFaces.begin(), kFaces.end());
