@@ -86,7 +86,7 @@ TEST_P(Repeatable, WithLittleMemory) {
   std::uint64_t most_tiles = 0;
   double memory = static_cast<double>(whole.report().peak_event_bytes + (std::uint64_t{16} << 20));
   try {
-    for (; most_tiles < 4; memory *= 0.96) {
+    for (; most_tiles < 4; memory *= 0.9) {
       options.memory = static_cast<std::uint64_t>(memory);
       const BakedFunctions baked(mixed_scene(), key_light(), options);
       most_tiles = std::max(most_tiles, baked.report().tiles);

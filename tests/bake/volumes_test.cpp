@@ -222,7 +222,7 @@ Scene cloud_scene() {
 TEST(Volumes, ThreadsTilesAndShardsChangeNoByte) {
   const Scene scene = cloud_scene();
   const Light light = rect_light(1, 1);
-  BakeOptions options = small_options(150, 130, 24);
+  BakeOptions options = small_options(150, 130, 8);
   options.threads = 1;
   options.mip_levels = 2;
   const BakedFunctions whole(scene, light, options);

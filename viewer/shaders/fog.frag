@@ -22,7 +22,7 @@ vec3 scattered(vec3 position) {
   vec3 arriving = 0.05 * sky.rgb;
   for (int i = 0; i < light_count.x; ++i) {
     arriving +=
-        0.42 * viewer_lights[i].colour.rgb * irradiance_around(i, position) * map_visibility(i, position, vec3(0.0));
+        0.42 * viewer_lights[i].colour.rgb * irradiance_around(i, position) * map_visibility_rgb(i, position, vec3(0.0));
   }
   return arriving;
 }

@@ -39,8 +39,18 @@ float irradiance_around(int light, vec3 position) {
   return facing(light, to_light) / (squared * sqrt(squared));
 }
 
+// Metres between pixels.
+float footprint_at(vec3 position) {
+  return viewport.w * viewport.z * distance(position, eye.xyz);
+}
+
 float map_visibility(int light, vec3 position, vec3 normal) {
   int map = int(viewer_lights[light].colour.w);
-  if (map < 0) return 1.0;
-  return pdsm_visibility(map, position, normal, viewport.w * viewport.z * distance(position, eye.xyz));
+  return map < 0 ? 1.0 : pdsm_visibility(map, position, normal, footprint_at(position));
+}
+
+// The same for red, green and blue.
+vec3 map_visibility_rgb(int light, vec3 position, vec3 normal) {
+  int map = int(viewer_lights[light].colour.w);
+  return map < 0 ? vec3(1.0) : pdsm_visibility_rgb(map, position, normal, footprint_at(position));
 }

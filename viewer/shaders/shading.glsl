@@ -9,11 +9,11 @@ uniform sampler2D heat;
 uniform float error_top;
 #endif
 
-float visibility(int light, vec3 position, vec3 normal) {
+vec3 visibility(int light, vec3 position, vec3 normal) {
 #if SURFACE_MODE == 2
-  return 1.0 - texelFetch(truth, ivec3(gl_FragCoord.xy, light), 0).r;
+  return vec3(1.0 - texelFetch(truth, ivec3(gl_FragCoord.xy, light), 0).r);
 #else
-  return map_visibility(light, position, normal);
+  return map_visibility_rgb(light, position, normal);
 #endif
 }
 
