@@ -130,7 +130,7 @@ class PreviousMap : public ::testing::Test {
 
 TEST_F(PreviousMap, RandomChangesGiveTheBytesOfABakeOfAll) {
   std::uint64_t partly = 0, blocks = 0, taken = 0;
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 500);
     const Light light = random_light(random);
@@ -146,7 +146,7 @@ TEST_F(PreviousMap, RandomChangesGiveTheBytesOfABakeOfAll) {
     partly += report.blocks_taken_over > 0 && report.blocks_taken_over < report.blocks ? 1 : 0;
   }
   // Else the test would say nothing.
-  EXPECT_GT(partly, 15U);
+  EXPECT_GT(partly, 30U);
   EXPECT_GT(taken, blocks / 3);
 }
 
