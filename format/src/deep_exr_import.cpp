@@ -214,14 +214,6 @@ PenumbraMap DeepImporter::import() {
   return map;
 }
 
-/// A library's message on one line. It may quote names from the file, with any bytes in them.
-std::string one_line(const char* message) {
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-  std::string line = message;
-  std::replace_if(line.begin(), line.end(), is_control, ' ');
-  return line;
-}
-
 }  // namespace
 
 PenumbraMap import_deep_exr(const std::filesystem::path& path) {
@@ -231,7 +223,7 @@ PenumbraMap import_deep_exr(const std::filesystem::path& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(Failure::input, path.string() + ":exr", one_line(error.what()));
+    throw Error(Failure::input, path.string() + ":exr", error.what());
   }
 }
 

@@ -18,8 +18,8 @@ enum class Failure {
 /// "file:line", "stdin:line" or "--option".
 class Error : public std::runtime_error {
  public:
-  Error(Failure failure, const std::string& where, const std::string& reason)
-      : std::runtime_error(where.empty() ? reason : where + ": " + reason), failure_(failure) {}
+  /// Either may quote any bytes, of a file's name or of its text: control characters become spaces.
+  Error(Failure failure, const std::string& where, const std::string& reason);
 
   [[nodiscard]] Failure failure() const noexcept { return failure_; }
 
