@@ -66,7 +66,7 @@ std::optional<BakeOptions> recorded_options(const PenumbraMap& map, const Light&
     return std::nullopt;
   }
   // A map of a coloured light tells the samples of red.
-  const Light sampled = is_coloured(light) ? channel_light(light, 0) : light;
+  const Light sampled = channel_light(light, 0);
   const bool own_samples =
       make_light_samples(sampled, options.samples, options.points, options.seed) != map.samples;
   if (own_samples) options.light_samples = map.samples;

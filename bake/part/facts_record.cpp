@@ -110,14 +110,6 @@ bool makes_a_map(const BakeFacts& facts) {
   return facts.mip_levels <= std::min(most, kMostMipLevels);
 }
 
-bool is_same_view(const BakeFacts& a, const BakeFacts& b) {
-  const View &va = a.fitted.view, &vb = b.fitted.view;
-  return va.world_to_view.rotation == vb.world_to_view.rotation &&
-         va.world_to_view.translation == vb.world_to_view.translation && va.projection == vb.projection &&
-         va.window == vb.window && va.near_depth == vb.near_depth && va.far_depth == vb.far_depth &&
-         va.width == vb.width && va.height == vb.height;
-}
-
 /// Of the channels and views after the first. All have its levels, its coding and its ends; the channels of a
 /// view have that view.
 bool read_more(std::uint32_t count, ByteReader& reader, MapFacts& facts) {
@@ -131,7 +123,7 @@ bool read_more(std::uint32_t count, ByteReader& reader, MapFacts& facts) {
     const BakeFacts& next = facts.emplace_back(facts_of(record));
     const bool is_kin = next.coding == first.coding && next.mip_levels == first.mip_levels &&
                         next.receivers == first.receivers && next.channels == first.channels &&
-                        (n % first.channels == 0 || is_same_view(next, facts[n - 1]));
+                        (n % first.channels == 0 || next.fitted.view == facts[n - 1].fitted.view);
     if (!is_kin || !makes_a_map(next)) return false;
   }
   return true;

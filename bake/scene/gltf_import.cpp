@@ -240,9 +240,10 @@ class NodeWalk {
       const int material = source.primitives[p].material;
       names.material = material_name(model_, material);
       if (primitives.size() == p) primitives.push_back(read(source.primitives[p], names));
+      const std::optional<glm::vec3> colour = base_color(model_, material);
+      const Translucency translucency = cutouts_.translucency(material);
       for (const glm::dmat4& instance : instances)
-        parts_.add(names, primitives[p], node_to_file * instance, base_color(model_, material),
-                   cutouts_.translucency(material));
+        parts_.add(names, primitives[p], node_to_file * instance, colour, translucency);
     }
   }
 

@@ -37,6 +37,14 @@ glm::dmat4 rotation_matrix(const std::vector<double>& quaternion) {
           1};
 }
 
+/// Scales, then turns, then moves.
+glm::dmat4 compose(const glm::dvec3& translation, const glm::dmat4& rotation, const glm::dvec3& scale) {
+  glm::dmat4 m = rotation;
+  for (int axis = 0; axis < 3; ++axis) m[axis] *= scale[axis];
+  m[3] = glm::dvec4(translation, 1.0);
+  return m;
+}
+
 /// The accessor of an attribute of instances; below 0 where there is none.
 int instance_accessor(const tinygltf::Value& attributes, const char* name) {
   if (!attributes.Has(name)) return -1;
@@ -63,13 +71,11 @@ glm::dmat4 node_matrix(const tinygltf::Node& node) {
     for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
     return m;
   }
+  const auto vector = [](const std::vector<double>& values, const glm::dvec3& otherwise) {
+    return values.size() == 3 ? glm::dvec3(values[0], values[1], values[2]) : otherwise;
+  };
   if (node.rotation.size() == 4) m = rotation_matrix(node.rotation);
-  for (int column = 0; column < 3; ++column) {
-    const auto i = static_cast<std::size_t>(column);
-    if (node.scale.size() == 3) m[column] *= node.scale[i];
-    if (node.translation.size() == 3) m[3][column] = node.translation[i];
-  }
-  return m;
+  return compose(vector(node.translation, glm::dvec3(0)), m, vector(node.scale, glm::dvec3(1)));
 }
 
 std::vector<glm::dmat4> instance_matrices(const tinygltf::Model& model, const tinygltf::Node& node) {
@@ -92,15 +98,13 @@ std::vector<glm::dmat4> instance_matrices(const tinygltf::Model& model, const ti
   check_count(scales, count);
   std::vector<glm::dmat4> matrices;
   for (std::size_t n = 0; n < count; ++n) {
-    glm::dmat4 m(1.0);
+    glm::dmat4 rotation_of(1.0);
     if (!rotations.empty()) {
       const glm::dvec4 q(rotations[n]);
-      m = rotation_matrix({q.x, q.y, q.z, q.w});
+      rotation_of = rotation_matrix({q.x, q.y, q.z, q.w});
     }
-    for (int axis = 0; axis < 3; ++axis)
-      if (!scales.empty()) m[axis] *= static_cast<double>(scales[n][axis]);
-    if (!translations.empty()) m[3] = glm::dvec4(glm::dvec3(translations[n]), 1.0);
-    matrices.push_back(m);
+    matrices.push_back(compose(translations.empty() ? glm::dvec3(0) : glm::dvec3(translations[n]),
+                               rotation_of, scales.empty() ? glm::dvec3(1) : glm::dvec3(scales[n])));
   }
   return matrices;
 }

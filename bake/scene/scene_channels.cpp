@@ -101,8 +101,16 @@ Scene channel_scene(const Scene& scene, std::uint32_t channel) {
   return of_channel;
 }
 
+bool is_coloured(const Light& light) {
+  constexpr double kHalfStep = 1.0 / 510;
+  if (!light.emission || light.emission->colour.empty()) return false;
+  for (std::uint32_t channel = 0; channel < kColourChannels; ++channel)
+    if (total_variation(*light.emission, channel) > kHalfStep) return true;
+  return false;
+}
+
 Light channel_light(const Light& light, std::uint32_t channel) {
-  if (!light.emission || light.emission->colour.empty()) return light;
+  if (!is_coloured(light)) return light;
   Light of_channel = light;
   auto image = std::make_shared<EmissionImage>();
   image->width = light.emission->width;
@@ -113,14 +121,6 @@ Light channel_light(const Light& light, std::uint32_t channel) {
       image->luminance[n] = channel_of(*light.emission, n, channel);
   of_channel.emission = std::move(image);
   return of_channel;
-}
-
-bool is_coloured(const Light& light) {
-  constexpr double kHalfStep = 1.0 / 510;
-  if (!light.emission || light.emission->colour.empty()) return false;
-  for (std::uint32_t channel = 0; channel < kColourChannels; ++channel)
-    if (total_variation(*light.emission, channel) > kHalfStep) return true;
-  return false;
 }
 
 bool may_be_coloured(const Scene& scene, const Light& light) {

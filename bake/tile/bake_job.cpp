@@ -133,8 +133,7 @@ double default_bias(const MapGrid& grid) {
 std::vector<LightSample> choose_samples(const Light& light, const BakeOptions& options,
                                         std::uint32_t channel) {
   if (!options.light_samples.empty()) return options.light_samples;
-  return make_light_samples(is_coloured(light) ? channel_light(light, channel) : light, options.samples,
-                            options.points, options.seed);
+  return make_light_samples(channel_light(light, channel), options.samples, options.points, options.seed);
 }
 
 /// Layers that a map texel may have, about: of surfaces, then of volumes.

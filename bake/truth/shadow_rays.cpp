@@ -10,11 +10,10 @@ namespace pdsm {
 
 ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth) {
   std::ranges::for_each(scene.geometry, check_opacity);
-  const bool coloured_light = pdsm::is_coloured(light);
   const bool coloured = may_be_coloured(scene, light);
   for (std::uint32_t channel = 0; channel < (coloured ? kColourChannels : 1); ++channel)
-    channels_.push_back(std::make_unique<const ChannelRays>(
-        channel_scene(scene, channel), coloured_light ? channel_light(light, channel) : light, near_depth));
+    channels_.push_back(std::make_unique<const ChannelRays>(channel_scene(scene, channel),
+                                                            channel_light(light, channel), near_depth));
 }
 
 template <typename OfChannel>

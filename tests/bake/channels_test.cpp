@@ -8,7 +8,6 @@
 
 #include "events/transmittance_events.h"
 #include "pdsm/bake/map_key.h"
-#include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
 #include "pdsm/runtime/look_up.h"
 #include "scene/scene_channels.h"
@@ -17,43 +16,20 @@
 #include "support/checkpoint_case.h"
 #include "support/compare.h"
 #include "support/exact_truth.h"
+#include "support/merged_shards.h"
+#include "support/translucent.h"
 
 namespace pdsm::test {
 namespace {
 
 using pdsm::testing::ScratchFolder;
 
-constexpr double kEpsilon = 0.002;
 constexpr double kOccluder = 4, kFar = 8;
 const glm::dvec3 kRuby(0.9, 0.25, 0);
-
-BakeOptions glass_options(std::uint32_t edge = 48, std::uint32_t samples = 64) {
-  BakeOptions options = small_options(edge, edge, samples);
-  options.epsilon = kEpsilon;
-  options.depth_tolerance = 1e-4;
-  options.bias = 0.01;
-  options.receivers = Receivers::all;
-  return options;
-}
-
-/// The fit, and rounding to 1/L.
-double tolerance(std::uint32_t samples = 64) {
-  return kEpsilon + 0.5 / transmittance_unit(samples) + 1e-9;
-}
-
-Light square_light() {
-  Light light = rect_light(1, 1);
-  set_view(light, 0.5, 0.5, 2, kFar);
-  return light;
-}
 
 void add_glass(Scene& scene, const Plate& plate, const glm::dvec3& transmission) {
   add(scene, plate, Roles::caster);
   scene.geometry.back().transmission = transmission;
-}
-
-Plate everywhere(double z) {
-  return {-kWide, -kWide, kWide, kWide, z};
 }
 
 /// A pane of ruby before an opaque plate, over a floor; the pane is in reach of a part of the map alone.
@@ -69,7 +45,7 @@ TEST(Channels, StainedGlassPerChannel) {
   Scene scene;
   add_glass(scene, everywhere(kOccluder), kRuby);
   add_glass(scene, everywhere(6), {0.5, 0.5, 1});
-  const BakedFunctions baked(scene, square_light(), glass_options());
+  const BakedFunctions baked(scene, square_light(), translucent_options());
   ASSERT_EQ(baked.map().channels, 3U);
   ASSERT_EQ(baked.map().images.size(), 3U);
   for (std::uint32_t channel = 0; channel < 3; ++channel) {
@@ -78,8 +54,8 @@ TEST(Channels, StainedGlassPerChannel) {
     const double both = 1 - kRuby[static_cast<int>(channel)] * (channel == 2 ? 1 : 0.5);
     for (std::uint32_t n = 0; n < 48; n += 5) {
       EXPECT_EQ(baked.value(n, 47 - n, 3.9, channel), 0);
-      EXPECT_NEAR(baked.value(n, 47 - n, 5.0, channel), first, tolerance()) << channel;
-      EXPECT_NEAR(baked.value(n, 47 - n, 7.9, channel), both, tolerance()) << channel;
+      EXPECT_NEAR(baked.value(n, 47 - n, 5.0, channel), first, translucent_tolerance()) << channel;
+      EXPECT_NEAR(baked.value(n, 47 - n, 7.9, channel), both, translucent_tolerance()) << channel;
     }
   }
 }
@@ -87,19 +63,19 @@ TEST(Channels, StainedGlassPerChannel) {
 TEST(Channels, OnlyWhatIsColouredHasThree) {
   Scene grey;
   add_glass(grey, everywhere(kOccluder), glm::dvec3(0.25));
-  const BakedFunctions through(grey, square_light(), glass_options());
+  const BakedFunctions through(grey, square_light(), translucent_options());
   EXPECT_EQ(through.map().channels, 1U);
   // The same as its opacity, to the byte.
   Scene translucent;
   add_glass(translucent, everywhere(kOccluder), glm::dvec3(0));
   translucent.geometry.back().opacity = 0.75;
-  expect_same_bytes(through, BakedFunctions(translucent, square_light(), glass_options()));
+  expect_same_bytes(through, BakedFunctions(translucent, square_light(), translucent_options()));
   // Out of the light's reach, glass costs nothing.
   Scene beside;
   add(beside, Plate{-1, -1, 1, 1, kOccluder});
-  const BakedFunctions plain(beside, square_light(), glass_options());
+  const BakedFunctions plain(beside, square_light(), translucent_options());
   add_glass(beside, Plate{30, 30, 31, 31, kOccluder}, kRuby);
-  const BakedFunctions with_glass(beside, square_light(), glass_options());
+  const BakedFunctions with_glass(beside, square_light(), translucent_options());
   EXPECT_EQ(with_glass.map().channels, 1U);
   expect_same_bytes(plain, with_glass);
   EXPECT_EQ(plain.report().key, with_glass.report().key);
@@ -108,14 +84,14 @@ TEST(Channels, OnlyWhatIsColouredHasThree) {
 TEST(Channels, ThreeArePutInPlaceOfOneByClearGlass) {
   Scene clear;
   add(clear, Plate{-1, -1, 1, 1, kOccluder});
-  const BakedFunctions plain(clear, square_light(), glass_options());
+  const BakedFunctions plain(clear, square_light(), translucent_options());
   add_glass(clear, everywhere(3), glm::dvec3(1));
   EXPECT_FALSE(casts_shadows(clear.geometry.back()));
-  expect_same_bytes(plain, BakedFunctions(clear, square_light(), glass_options()));
+  expect_same_bytes(plain, BakedFunctions(clear, square_light(), translucent_options()));
 }
 
 TEST(Channels, BlocksBehindNoGlassAreThoseOfRed) {
-  const BakedFunctions baked(window_scene(), square_light(), glass_options(192, 16));
+  const BakedFunctions baked(window_scene(), square_light(), translucent_options(192, 16));
   ASSERT_EQ(baked.map().channels, 3U);
   std::size_t same = 0;
   const auto& blocks = baked.baked().blocks;
@@ -123,14 +99,6 @@ TEST(Channels, BlocksBehindNoGlassAreThoseOfRed) {
   // One column of three lies behind the plate alone, one is reached by both.
   EXPECT_GE(same, 3U);
   EXPECT_LT(same, 9U);
-}
-
-/// Attenuation of a half plane beyond `q` in [-1, 1] of a light two metres wide that emits `left` and `right`
-/// on its halves.
-double beyond(double q, double left, double right) {
-  const double x = std::clamp(q, -1.0, 1.0);
-  const double hidden = x >= 0 ? right * (1 - x) : right - left * x;
-  return hidden / (left + right);
 }
 
 TEST(Channels, TwoHalvesOfTwoColours) {
@@ -159,7 +127,7 @@ TEST(Channels, TwoHalvesOfTwoColours) {
         double low = 1, high = 0;
         for (const double depth : {z - delta, z + delta}) {
           const auto at = [&](double edge) {
-            return beyond(back_project(edge, 3, baked.slope_x(i), depth), left, right);
+            return two_halves(back_project(edge, 3, baked.slope_x(i), depth), left, right);
           };
           low = std::min(low, at(kEdge + moved));
           high = std::max(high, at(kEdge - moved));
@@ -207,20 +175,14 @@ TEST(Channels, MasksOfGlassTakeWhatTheyDoNotLetThrough) {
 }
 
 TEST(Channels, ThreadsTilesAndShardsGiveTheSameBytes) {
-  BakeOptions options = glass_options(150, 16);
+  BakeOptions options = translucent_options(150, 16);
   options.mip_levels = 2;
   const BakedMap whole = bake(window_scene(), square_light(), options);
   EXPECT_GT(whole.report.events, 1000U);
   options.tile = 64;
   options.threads = 3;
   expect_same_bake(bake(window_scene(), square_light(), options), whole);
-  const ScratchFolder folder;
-  std::vector<std::filesystem::path> paths;
-  for (std::uint32_t index = 1; index <= 2; ++index) {
-    paths.push_back(folder.path() / std::to_string(index));
-    bake_shard(window_scene(), square_light(), options, {index, 2}, {}, paths.back());
-  }
-  const BakedMap merged = merge_shards(paths);
+  const BakedMap merged = bake_in_shards(window_scene(), square_light(), options, 2);
   expect_same_bake(merged, whole);
   EXPECT_EQ(merged.map.channels, 3U);
   EXPECT_EQ(merged.map.views, whole.map.views);
@@ -229,7 +191,7 @@ TEST(Channels, ThreadsTilesAndShardsGiveTheSameBytes) {
 TEST(Channels, GoOnFromACheckpoint) {
   const ScratchFolder folder;
   const auto file = folder.path() / "a.partial";
-  BakeOptions options = glass_options(150, 16);
+  BakeOptions options = translucent_options(150, 16);
   const BakedMap whole = bake(window_scene(), square_light(), options);
   options.tile = 64;
   {
@@ -254,7 +216,7 @@ TEST(Channels, AllViewsOfASphereHaveThem) {
   add_glass(scene, Plate{-1, -1, 1, 1, -2}, {0, 1, 0.5});
   add(scene, Plate{-3, -3, 3, 3, 4});
   add(scene, Plate{-3, -3, 3, 3, -4});
-  BakeOptions options = glass_options(64, 16);
+  BakeOptions options = translucent_options(64, 16);
   options.mip_levels = 1;
   const BakedFunctions baked(scene, light, options);
   ASSERT_EQ(baked.map().views.size(), 6U);
@@ -270,13 +232,14 @@ TEST(Channels, AllViewsOfASphereHaveThem) {
              back = look_up.at({0, 0, -3}, Filter::bilinear).rgb;
   for (int channel = 0; channel < 3; ++channel) {
     const auto n = static_cast<std::size_t>(channel);
-    EXPECT_NEAR(static_cast<double>(front[n]), 1 - kRuby[channel], tolerance(16)) << channel;
-    EXPECT_NEAR(static_cast<double>(back[n]), 1 - glm::dvec3(0, 1, 0.5)[channel], tolerance(16)) << channel;
+    EXPECT_NEAR(static_cast<double>(front[n]), 1 - kRuby[channel], translucent_tolerance(16)) << channel;
+    EXPECT_NEAR(static_cast<double>(back[n]), 1 - glm::dvec3(0, 1, 0.5)[channel], translucent_tolerance(16))
+        << channel;
   }
 }
 
 TEST(Channels, KeysTellTransmissionApart) {
-  const BakeOptions options = glass_options();
+  const BakeOptions options = translucent_options();
   const auto key_of = [&](const glm::dvec3& transmission) {
     Scene scene = window_scene();
     scene.geometry.front().transmission = transmission;
@@ -291,7 +254,7 @@ TEST(Channels, RefuseWhatIsNoShare) {
   for (const double share : {-0.1, 1.1, std::nan("")}) {
     Scene scene;
     add_glass(scene, everywhere(kOccluder), {0.5, share, 0.5});
-    EXPECT_THROW((void)bake(scene, square_light(), glass_options()), Error) << share;
+    EXPECT_THROW((void)bake(scene, square_light(), translucent_options()), Error) << share;
   }
 }
 

@@ -7,33 +7,21 @@
 #include <numbers>
 
 #include "pdsm/bake/map_key.h"
-#include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
 #include "scene/caster_hull.h"
-#include "scratch_folder.h"
 #include "support/baked_functions.h"
 #include "support/checkpoint_case.h"
 #include "support/compare.h"
 #include "support/exact_truth.h"
 #include "support/fur.h"
 #include "support/job_blocks.h"
+#include "support/merged_shards.h"
+#include "support/translucent.h"
 
 namespace pdsm::test {
 namespace {
 
-using pdsm::testing::ScratchFolder;
-
 constexpr double kDepth = 4, kFar = 8;
-
-Plate floor_plate() {
-  return {-kWide, -kWide, kWide, kWide, kFar};
-}
-
-Light square_light() {
-  Light light = rect_light(1, 1);
-  set_view(light, 0.5, 0.5, 2, kFar);
-  return light;
-}
 
 Curves bar_along_y(float radius, CurveShape shape) {
   return one_strand({{0.1F, -40, kDepth, radius}, {0.1F, 40, kDepth, radius}}, shape);
@@ -57,7 +45,7 @@ TEST(Curves, ABarHidesWhatIsBehindIt) {
   for (const CurveShape shape : {CurveShape::round, CurveShape::flat}) {
     Scene scene;
     scene.curves = {bar_along_y(kRadius, shape)};
-    add(scene, floor_plate());
+    add(scene, everywhere(kFar));
     const BakedFunctions baked(scene, square_light(), small_options(160, 8, kSamples));
     const double moved = texel_reach(Walk::exact) * baked.map_pitch_x() * kDepth;
     const double delta = baked.report().depth_tolerance + baked.report().bias;
@@ -94,7 +82,7 @@ TEST(Curves, ThinHairsKeepTheirMeanCoverage) {
   comb.strands = strands;
   Scene scene;
   scene.curves = {comb};
-  add(scene, floor_plate());
+  add(scene, everywhere(kFar));
   Light point = rect_light(0, 0);
   set_view(point, 0.5, 0.5, 2, kFar);
   BakeOptions options = small_options(kEdge, kEdge, kSamples);
@@ -113,7 +101,7 @@ TEST(Curves, ThinHairsKeepTheirMeanCoverage) {
 TEST(Curves, CastUnderTheSunAndToAllSides) {
   Scene scene;
   scene.curves = {bar_along_y(0.3F, CurveShape::round)};
-  add(scene, floor_plate(), Roles::receiver);
+  add(scene, everywhere(kFar), Roles::receiver);
   Light sun = distant_light(0.5);
   set_view(sun, 1, 1, 2, kFar);
   const BakedFunctions parallel(scene, sun, small_options(32, 32, 16));
@@ -131,7 +119,7 @@ Scene fur_scene() {
   scene.curves.push_back(random_fur({0.3, 0.2, 5}, 0.3, 100, 2));
   scene.curves.back().shape = CurveShape::flat;
   add(scene, Plate{-0.5, -0.5, 0, 0.5, 5.5});
-  add(scene, floor_plate());
+  add(scene, everywhere(kFar));
   return scene;
 }
 
@@ -143,13 +131,7 @@ TEST(Curves, ThreadsTilesAndShardsGiveTheSameBytes) {
   options.tile = 64;
   options.threads = 3;
   expect_same_bake(bake(fur_scene(), square_light(), options), whole);
-  const ScratchFolder folder;
-  std::vector<std::filesystem::path> paths;
-  for (std::uint32_t index = 1; index <= 2; ++index) {
-    paths.push_back(folder.path() / std::to_string(index));
-    bake_shard(fur_scene(), square_light(), options, {index, 2}, {}, paths.back());
-  }
-  expect_same_bake(merge_shards(paths), whole);
+  expect_same_bake(bake_in_shards(fur_scene(), square_light(), options, 2), whole);
 }
 
 TEST(Curves, RaysThatAreLeftOutHaveNoEvents) {
@@ -188,7 +170,7 @@ TEST(Curves, PlacementScalesTheirWidths) {
   scaled.curves = {one_strand({{0, -1, 0, 0.125F}, {0, 1, 0, 0.125F}})};
   scaled.curves[0].local_to_world = glm::dmat4(2);
   scaled.curves[0].local_to_world[3] = {0, 0, 4, 1};
-  for (Scene* scene : {&plain, &scaled}) add(*scene, floor_plate());
+  for (Scene* scene : {&plain, &scaled}) add(*scene, everywhere(kFar));
   expect_same_bytes(BakedFunctions(plain, square_light(), small_options(64, 64, 9)),
                     BakedFunctions(scaled, square_light(), small_options(64, 64, 9)));
 }

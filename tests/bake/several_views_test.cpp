@@ -7,12 +7,12 @@
 #include "light/light_faces.h"
 #include "pdsm/bake/checkpoint.h"
 #include "pdsm/bake/map_key.h"
-#include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
 #include "scratch_folder.h"
 #include "support/baked_functions.h"
 #include "support/checkpoint_case.h"
 #include "support/job_blocks.h"
+#include "support/merged_shards.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -147,14 +147,8 @@ TEST_P(SeveralViews, CheckpointsGoOn) {
 }
 
 TEST_P(SeveralViews, ShardsMergeToTheBake) {
-  const ScratchFolder folder;
   const BakeOptions options = options_of_size(150);
-  std::vector<std::filesystem::path> paths;
-  for (std::uint32_t index = 1; index <= 3; ++index) {
-    paths.push_back(folder.path() / ("shard" + std::to_string(index)));
-    bake_shard(surrounded(), light(), options, {index, 3}, {}, paths.back());
-  }
-  const BakedMap merged = merge_shards(paths), whole = bake_here(options);
+  const BakedMap merged = bake_in_shards(surrounded(), light(), options, 3), whole = bake_here(options);
   expect_same_bake(merged, whole);
   EXPECT_EQ(merged.map.views, whole.map.views);
   EXPECT_EQ(merged.map.samples, whole.map.samples);

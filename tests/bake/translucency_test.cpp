@@ -11,40 +11,15 @@
 #include "support/baked_functions.h"
 #include "support/compare.h"
 #include "support/cutouts.h"
+#include "support/translucent.h"
 #include "trace/layer_map.h"
 
 namespace pdsm::test {
 namespace {
 
-constexpr double kEpsilon = 0.002;
-
-BakeOptions translucent_options(std::uint32_t edge = 48, std::uint32_t samples = 64) {
-  BakeOptions options = small_options(edge, edge, samples);
-  options.epsilon = kEpsilon;
-  options.depth_tolerance = 1e-4;
-  options.bias = 0.01;
-  options.receivers = Receivers::all;
-  return options;
-}
-
-/// What a value may be off where all samples see the same: the fit, and rounding to 1/L.
-double tolerance(std::uint32_t samples = 64) {
-  return kEpsilon + 0.5 / transmittance_unit(samples) + 1e-9;
-}
-
-Light square_light() {
-  Light light = rect_light(1, 1);
-  set_view(light, 0.5, 0.5, 2, 8);
-  return light;
-}
-
 void add_sheet(Scene& scene, const Plate& plate, double opacity) {
   add(scene, plate, Roles::caster);
   scene.geometry.back().opacity = opacity;
-}
-
-Plate everywhere(double z) {
-  return {-kWide, -kWide, kWide, kWide, z};
 }
 
 /// Calls check(i, j) for some texels.
@@ -105,7 +80,8 @@ TEST(Translucency, OnePlateTakesItsOpacityAtAllDepths) {
   const BakedFunctions baked(scene, square_light(), translucent_options());
   for_some_texels(baked, [&](std::uint32_t i, std::uint32_t j) {
     for (const double z : {2.5, 3.9}) EXPECT_EQ(baked.value(i, j, z), 0);
-    for (const double z : {4.2, 6.0, 7.9}) ASSERT_NEAR(baked.value(i, j, z), 0.3, tolerance()) << i << j;
+    for (const double z : {4.2, 6.0, 7.9})
+      ASSERT_NEAR(baked.value(i, j, z), 0.3, translucent_tolerance()) << i << j;
   });
 }
 
@@ -122,7 +98,7 @@ TEST(Translucency, PlatesMultiplyAndOpaqueIsUmbra) {
         if (z > opaque)
           ASSERT_EQ(baked.value(i, j, z), 1) << z;
         else
-          ASSERT_NEAR(baked.value(i, j, z), 1 - passed, tolerance()) << z;
+          ASSERT_NEAR(baked.value(i, j, z), 1 - passed, translucent_tolerance()) << z;
       }
     });
   }
@@ -139,8 +115,12 @@ void expect_opaque_times(double opacity, const Scene& sheet, const Plate& plate)
     // Within delta of an event, either of its sides may be what is kept.
     for (double z = 2.5; z < 8; z += 0.37) {
       const double low = a.value(i, j, z - 3e-3), high = a.value(i, j, z + 3e-3);
-      EXPECT_GE(b.value(i, j, z), opacity * (std::min(low, high) - kEpsilon) - tolerance()) << z;
-      EXPECT_LE(b.value(i, j, z), opacity * (std::max(low, high) + kEpsilon) + tolerance()) << z;
+      EXPECT_GE(b.value(i, j, z),
+                opacity * (std::min(low, high) - kTranslucentEpsilon) - translucent_tolerance())
+          << z;
+      EXPECT_LE(b.value(i, j, z),
+                opacity * (std::max(low, high) + kTranslucentEpsilon) + translucent_tolerance())
+          << z;
     }
   });
 }
@@ -193,8 +173,8 @@ TEST(Translucency, TexturedAlphaIsTheOpacity) {
   const BakedFunctions far(scene, wide, translucent_options());
   const std::uint32_t last = far.view().width - 1;
   for (const double z : {4.5, 6.0, 7.9}) {
-    EXPECT_NEAR(far.value(0, 20, z), 0.5 * 0.2, tolerance()) << z;
-    EXPECT_NEAR(far.value(last, 20, z), 0.5 * 0.8, tolerance()) << z;
+    EXPECT_NEAR(far.value(0, 20, z), 0.5 * 0.2, translucent_tolerance()) << z;
+    EXPECT_NEAR(far.value(last, 20, z), 0.5 * 0.8, translucent_tolerance()) << z;
   }
 }
 
@@ -214,7 +194,7 @@ TEST(Translucency, AMinifiedTextureHasItsMean) {
   // Hoeffding over count x 64 draws within 0 .. 0.6, at 1e-6; rays of neighbours share texels, so that no
   // more than one map texel of each ray and sample is its own.
   const double draws = count * 64.0;
-  EXPECT_NEAR(sum / count, 0.3, 0.6 * std::sqrt(std::log(2 / 1e-6) / (2 * draws)) + tolerance());
+  EXPECT_NEAR(sum / count, 0.3, 0.6 * std::sqrt(std::log(2 / 1e-6) / (2 * draws)) + translucent_tolerance());
 }
 
 Scene mixed_scene() {

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "pdsm/bake/map_key.h"
-#include "pdsm/bake/shard.h"
 #include "pdsm/format/error.h"
-#include "scratch_folder.h"
 #include "support/baked_functions.h"
 #include "support/compare.h"
+#include "support/merged_shards.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/volumes.h"
@@ -227,19 +226,13 @@ TEST(Volumes, ThreadsTilesAndShardsChangeNoByte) {
   options.mip_levels = 2;
   const BakedFunctions whole(scene, light, options);
   EXPECT_GT(greatest_value(whole), 0.5);
-  const pdsm::testing::ScratchFolder folder;
   for (const std::uint32_t threads : {2U, 3U}) {
     BakeOptions other = options;
     other.threads = threads;
     other.tile = 64 * (threads - 1);
     expect_same_bytes(BakedFunctions(scene, light, other), whole);
-    std::vector<std::filesystem::path> shards;
-    for (std::uint32_t index = 1; index <= 3; ++index) {
-      shards.push_back(folder.path() / std::to_string(index));
-      static_cast<void>(bake_shard(
-          scene, light, other, {index, 3}, [](const BakedMap&) { return std::string("{}"); }, shards.back()));
-    }
-    const BakedMap merged = merge_shards(shards);
+    const BakedMap merged =
+        bake_in_shards(scene, light, other, 3, [](const BakedMap&) { return std::string("{}"); });
     for (std::size_t level = 0; level < merged.blocks.size(); ++level)
       for (std::size_t n = 0; n < merged.blocks[level].size(); ++n)
         EXPECT_TRUE(merged.blocks[level][n].bytes == whole.baked().blocks[level][n].bytes);

@@ -21,6 +21,13 @@ namespace pdsm::test {
   return std::clamp(0.5 - q / length, 0.0, 1.0);
 }
 
+/// Half plane beyond `q` in [-1, 1] before a light two metres wide whose halves emit `left` and `right`.
+[[nodiscard]] inline double two_halves(double q, double left, double right) {
+  const double x = std::clamp(q, -1.0, 1.0);
+  const double hidden = x >= 0 ? right * (1 - x) : right - left * x;
+  return hidden / (left + right);
+}
+
 /// A plate before a rectangle light, seen from (x, y, z).
 [[nodiscard]] inline double rect_plate(double width, double height, const Plate& p, double x, double y,
                                        double z) {
