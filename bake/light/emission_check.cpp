@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/disk_emission.h"
 #include "pdsm/format/error.h"
 
 namespace pdsm {
@@ -25,11 +26,22 @@ const char* emission_fault(const EmissionImage& image) {
   return nullptr;
 }
 
+const char* emission_fault(const Light& light) {
+  if (std::holds_alternative<RectLight>(light.shape)) return nullptr;
+  if (!std::holds_alternative<DiskLight>(light.shape)) return "must be of a rect or disk light";
+  const EmissionImage& image = *light.emission;
+  for (std::uint32_t row = 0; row < image.height; ++row)
+    for (std::uint32_t column = 0; column < image.width; ++column)
+      if (image.luminance[std::size_t{row} * image.width + column] > 0 &&
+          share_on_light(light, column, row) > 0)
+        return nullptr;
+  return "is black on the disk";
+}
+
 void check_emission(const Light& light) {
   if (!light.emission) return;
-  const char* fault = std::holds_alternative<RectLight>(light.shape)
-                          ? emission_fault(*light.emission)
-                          : "of lights that are not rect: not supported yet";
+  const char* fault = emission_fault(*light.emission);
+  if (fault == nullptr) fault = emission_fault(light);
   if (fault != nullptr) throw Error(Failure::input, light.name + ".emission", fault);
 }
 

@@ -23,7 +23,7 @@ using nlohmann::json;
 // As in JsonFields.
 constexpr double kMaxCoordinate = 1e12;
 // Half of the widest window that is chosen for a spot light's cone.
-constexpr double kMostConeAngle = std::numbers::pi / 3;
+constexpr double kWidestConeAngle = std::numbers::pi / 3;
 // What KHR_lights_punctual has for a spot light without one.
 constexpr double kDefaultConeAngle = std::numbers::pi / 4;
 
@@ -140,19 +140,22 @@ class LightNode {
     const double radius = extras->not_negative("radius");
     if (type == "point") return make(SphereLight{radius});
     Light light = make(DiskLight{radius});
-    light.window = cone_window(fields);
+    see_cone(fields, light);
     return light;
   }
 
-  /// The window that holds a spot light's cone; none where it is too wide for one.
-  [[nodiscard]] std::optional<std::array<double, 4>> cone_window(const JsonFields& light) const {
-    const json* spot = light.find("spot");
+  /// Lets the light's map hold a spot light's cone: by a window, or all that is in front of the light.
+  void see_cone(const JsonFields& fields, Light& light) const {
+    const json* spot = fields.find("spot");
     double angle = kDefaultConeAngle;
     if (spot != nullptr && member(*spot, "outerConeAngle") != nullptr)
-      angle = JsonFields(*spot, file_, light.path_of("spot")).positive("outerConeAngle");
-    if (angle > kMostConeAngle) return std::nullopt;
+      angle = JsonFields(*spot, file_, fields.path_of("spot")).positive("outerConeAngle");
+    if (angle > kWidestConeAngle) {
+      light.faces = 5;
+      return;
+    }
     const double t = std::tan(angle);
-    return std::array{-t, -t, t, t};
+    light.window = std::array{-t, -t, t, t};
   }
 
   const std::string &file_, &path_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "light/emission_check.h"
 #include "light/light_axes.h"
 #include "scene/json_document.h"
 #include "scene/json_fields.h"
@@ -146,9 +147,8 @@ Light read_unplaced_light(const JsonFields& fields, const std::string& default_n
   if (fields.has("resolution")) light.resolution = read_resolution(fields);
   if (fields.has("samples")) light.samples = fields.count("samples", kMaxSamples);
   if (fields.has("emission")) {
-    if (!std::holds_alternative<RectLight>(light.shape))
-      fields.refuse("emission", "of lights that are not rect: not supported yet");
     light.emission = read_emission(fields);
+    if (const char* reason = emission_fault(light)) fields.refuse("emission", reason);
   }
   return light;
 }

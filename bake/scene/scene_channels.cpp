@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/disk_emission.h"
+
 namespace pdsm {
 namespace {
 
@@ -31,22 +33,36 @@ float channel_of(const EmissionImage& image, std::size_t texel, std::uint32_t ch
   return image.colour[texel][static_cast<int>(channel)];
 }
 
-double sum_channel(const EmissionImage& image, std::uint32_t channel) {
+/// Calls visit(texel, share) for each texel of a light's picture, with the share of it on the light.
+template <typename Visit>
+void visit_texels(const Light& light, Visit&& visit) {
+  std::size_t texel = 0;
+  for (std::uint32_t row = 0; row < light.emission->height; ++row)
+    for (std::uint32_t column = 0; column < light.emission->width; ++column)
+      visit(texel++, share_on_light(light, column, row));
+}
+
+double sum_channel(const Light& light, std::uint32_t channel) {
   double sum = 0;
-  for (std::size_t n = 0; n < image.colour.size(); ++n)
-    sum += static_cast<double>(channel_of(image, n, channel));
+  visit_texels(light, [&](std::size_t texel, double share) {
+    sum += share * static_cast<double>(channel_of(*light.emission, texel, channel));
+  });
   return sum;
 }
 
 /// Between a channel and the luminance, as distributions over the light.
-double total_variation(const EmissionImage& image, std::uint32_t channel) {
-  const double of_channel = sum_channel(image, channel);
+double total_variation(const Light& light, std::uint32_t channel) {
+  const EmissionImage& image = *light.emission;
+  const double of_channel = sum_channel(light, channel);
   if (of_channel == 0) return 0;
   double of_all = 0, sum = 0;
-  for (const float luminance : image.luminance) of_all += static_cast<double>(luminance);
-  for (std::size_t n = 0; n < image.colour.size(); ++n)
-    sum += std::abs(static_cast<double>(channel_of(image, n, channel)) / of_channel -
-                    static_cast<double>(image.luminance[n]) / of_all);
+  visit_texels(light, [&](std::size_t texel, double share) {
+    of_all += share * static_cast<double>(image.luminance[texel]);
+  });
+  visit_texels(light, [&](std::size_t texel, double share) {
+    sum += share * std::abs(static_cast<double>(channel_of(image, texel, channel)) / of_channel -
+                            static_cast<double>(image.luminance[texel]) / of_all);
+  });
   return sum / 2;
 }
 
@@ -105,7 +121,7 @@ bool is_coloured(const Light& light) {
   constexpr double kHalfStep = 1.0 / 510;
   if (!light.emission || light.emission->colour.empty()) return false;
   for (std::uint32_t channel = 0; channel < kColourChannels; ++channel)
-    if (total_variation(*light.emission, channel) > kHalfStep) return true;
+    if (total_variation(light, channel) > kHalfStep) return true;
   return false;
 }
 
@@ -116,7 +132,7 @@ Light channel_light(const Light& light, std::uint32_t channel) {
   image->width = light.emission->width;
   image->height = light.emission->height;
   image->luminance = light.emission->luminance;
-  if (sum_channel(*light.emission, channel) > 0)
+  if (sum_channel(light, channel) > 0)
     for (std::size_t n = 0; n < image->luminance.size(); ++n)
       image->luminance[n] = channel_of(*light.emission, n, channel);
   of_channel.emission = std::move(image);

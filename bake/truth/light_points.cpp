@@ -2,6 +2,7 @@
 #include "truth/light_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -109,17 +110,29 @@ LightSurface::LightSurface(const Light& light) : light_(light) {
   }
 }
 
-glm::dvec3 LightSurface::point(const std::array<double, 2>& unit) const {
-  if (!light_.emission) return light_point(light_, unit);
+std::array<double, 2> LightSurface::on_picture(const std::array<double, 2>& unit) const {
   const std::size_t width = light_.emission->width, height = light_.emission->height;
   const auto shares = share_before_.begin();
   const auto columns = shares + static_cast<std::ptrdiff_t>(width);
   const Bin column = find_bin(shares, columns, unit[0]);
   const auto texels = columns + static_cast<std::ptrdiff_t>(column.index * height);
   const Bin texel = find_bin(texels, texels + static_cast<std::ptrdiff_t>(height), unit[1]);
-  return light_point(light_,
-                     {(static_cast<double>(column.index) + column.within) / static_cast<double>(width),
-                      (static_cast<double>(texel.index) + texel.within) / static_cast<double>(height)});
+  return {(static_cast<double>(column.index) + column.within) / static_cast<double>(width),
+          (static_cast<double>(texel.index) + texel.within) / static_cast<double>(height)};
+}
+
+glm::dvec3 LightSurface::point(const std::array<double, 2>& unit) const {
+  if (!light_.emission) return light_point(light_, unit);
+  const auto* disk = std::get_if<DiskLight>(&light_.shape);
+  if (disk == nullptr) return light_point(light_, on_picture(unit));
+  const std::uint64_t seed =
+      hash_bits(std::bit_cast<std::uint64_t>(unit[0]), std::bit_cast<std::uint64_t>(unit[1]));
+  std::array<double, 2> drawn = unit;
+  for (std::uint64_t n = 0;; drawn = hash_unit_pair(seed, n++)) {
+    const auto [u, v] = on_picture(drawn);
+    const glm::dvec3 p(2 * u - 1, 2 * v - 1, 0);
+    if (glm::dot(p, p) <= 1) return p * disk->radius;
+  }
 }
 
 JitteredGrid::JitteredGrid(std::uint32_t count)

@@ -27,7 +27,8 @@ namespace pdsm {
                                           const std::array<double, 2>& more);
 
 /// The same for a light with a picture: equal areas of the square go to parts that emit the same. By columns
-/// first, then along the column.
+/// first, then along the column. What goes beside a disk, whose picture covers its bounding square, is drawn
+/// anew.
 class LightSurface {
  public:
   explicit LightSurface(const Light& light);
@@ -35,6 +36,9 @@ class LightSurface {
   [[nodiscard]] glm::dvec3 point(const std::array<double, 2>& unit) const;
 
  private:
+  /// Where the unit square goes on the picture's unit square.
+  [[nodiscard]] std::array<double, 2> on_picture(const std::array<double, 2>& unit) const;
+
   Light light_;
   std::vector<double> share_before_;  ///< of columns, then of each column's texels; none without a picture
 };

@@ -148,9 +148,9 @@ TEST(Emission, RefusesWhatIsNoPicture) {
   EXPECT_EQ(fault(rect, picture(1, 1, {NAN})), name + "must be finite and not negative");
   for (const auto& image : {picture(2, 2, {1, 1}), picture(0, 1, {}), picture(8193, 1, {1})})
     EXPECT_EQ(fault(rect, image).find(name + "must have as many values"), 0U);
-  Light disk = rect;
-  disk.shape = DiskLight{1};
-  EXPECT_EQ(fault(disk, picture(1, 1, {1})), name + "of lights that are not rect: not supported yet");
+  Light sphere = rect;
+  sphere.shape = SphereLight{1};
+  EXPECT_EQ(fault(sphere, picture(1, 1, {1})), name + "must be of a rect or disk light");
 }
 
 }  // namespace

@@ -157,11 +157,12 @@ TEST_F(GltfSceneTest, PunctualLightsHaveTheirSizeInExtras) {
   EXPECT_NEAR(light().window.value()[0], -1 / std::sqrt(3), 1e-15);
   punctual["extras"] = {{"radius", 0.2}};
   EXPECT_EQ(std::get<DiskLight>(light().shape).radius, 0.2);
-  // A cone without an angle is one of 45 degrees; wider than 60, it has no window of its own.
+  // A cone without an angle is one of 45 degrees; one wider than 60 takes all views in front of it.
   punctual["spot"] = json::object();
   EXPECT_NEAR(light().window.value()[3], 1, 1e-15);
   punctual["spot"]["outerConeAngle"] = 1.5;
   EXPECT_FALSE(light().window);
+  EXPECT_EQ(light().faces, 5U);
 }
 
 TEST_F(GltfSceneTest, WhatHasNoSizeIsLeftOutAndTold) {

@@ -133,7 +133,6 @@ INSTANTIATE_TEST_SUITE_P(
         in_light(R"("radius": -0.5)", "radius: must be a number >= 0"),
         in_light(R"("width": 1)", "width: unknown key"),
         in_light(R"("colour": [1, 1, 1])", "colour: unknown key; known are name, type"),
-        in_light(R"("emission": "e.exr")", "emission: of lights that are not rect: not supported yet"),
         in_light(R"("faces": 6)", "faces: must be 1 or 5"),
         in_light(R"("faces": 2)", "faces: must be 1 or 5")));
 

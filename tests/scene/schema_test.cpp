@@ -80,10 +80,6 @@ TEST(Schema, ListsTheKeysOfLights) {
     add_keys(listed, light["properties"]);
     add_keys(listed, kind["properties"]);
     Keys known = keys_told(folder.fault_of(R"({"lights": [{"type": ")" + type + R"(", "?": 1}]})"));
-    // Known to all lights with a place, but refused for disks for now.
-    if (type == "disk") {
-      EXPECT_EQ(known.erase("emission"), 1U);
-    }
     // What all kinds have but spheres.
     if (type == "sphere") {
       EXPECT_EQ(listed.erase("window"), 1U);

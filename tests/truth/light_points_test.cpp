@@ -92,6 +92,27 @@ TEST(LightSurface, GivesEachTexelItsShare) {
   EXPECT_EQ(count, (std::array<int, 6>{64, 0, 32, 64, 0, 96}));
 }
 
+TEST(LightSurface, OfADiskIsWhatOfItsPictureLiesOnIt) {
+  Light light = light_at_origin(DiskLight{2});
+  // Of the left half a quarter emits, and of that what is on the disk.
+  light.emission = std::make_shared<const EmissionImage>(EmissionImage{2, 2, {0, 3, 1, 0}});
+  const LightSurface surface(light);
+  constexpr int kSide = 128;
+  int left = 0, within = 0;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const glm::dvec3 p =
+        surface.point({(i % kSide + 0.5) / kSide, (static_cast<double>(i / kSide) + 0.5) / kSide});
+    ASSERT_TRUE(p.x <= 0 ? p.y >= 0 : p.y <= 0);
+    ASSERT_LE(glm::length(p), 2);
+    left += p.x <= 0 ? 1 : 0;
+    within += glm::length(p) <= 1 ? 1 : 0;
+  }
+  // Shares 1/4 and 1/4. By Hoeffding, as if all points were drawn apart, but for one time in a million.
+  const double tolerance = std::sqrt(std::log(2e6) / 2) * kSide;
+  EXPECT_NEAR(left, kSide * kSide / 4, tolerance);
+  EXPECT_NEAR(within, kSide * kSide / 4, tolerance);
+}
+
 TEST(LightPoint, DiskKeepsAreas) {
   // A grid of equal cells: the share of points within radius r is r^2, up to the cells that the circle cuts.
   constexpr std::uint32_t kSide = 256;

@@ -109,7 +109,8 @@ struct DistantLight {
 /// A wider disk would be a sky: towards its rim, tangents and with them walks grow beyond all bounds.
 inline constexpr double kMostDistantAngle = 90;
 
-/// Where a light emits how much: a picture over its face, constant within each texel. Only ratios matter.
+/// Where a light emits how much: a picture over its face, constant within each texel. Of a disk it covers the
+/// bounding square. Only ratios matter.
 struct EmissionImage {
   std::uint32_t width = 0, height = 0;  ///< texels, 1 .. kMostEmissionTexels
   std::vector<float> luminance;  ///< row by row along light x, the row at -y first; finite, >= 0, not all 0
@@ -137,7 +138,7 @@ struct Light {
   /// Views of a planar light's map: 1, or 5 that see all in front of it (half a cube). A sphere light has 6,
   /// whatever this says. Several views leave no choice of `window`.
   std::uint32_t faces = 1;
-  std::shared_ptr<const EmissionImage> emission;  ///< of a rect light; null: the same everywhere
+  std::shared_ptr<const EmissionImage> emission;  ///< of rect and disk lights; null: the same everywhere
 };
 
 /// Throws Error (input) "name.emission: reason" for what is not as described above. Baking calls it.
