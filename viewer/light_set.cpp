@@ -22,7 +22,7 @@ struct LightsData {
 LightEntry entry_of(const ShownLight& light, const Stage& stage) {
   LightEntry entry{};
   entry.colour = glm::vec4(light.radiance, static_cast<float>(light.map));
-  entry.direction = glm::vec4(glm::vec3(light.studio.direction), 0.0F);
+  entry.direction = glm::vec4(glm::vec3(light.studio.direction), light.studio.two_sided ? 1.0F : 0.0F);
   std::transform(light.studio.points.begin(), light.studio.points.end(), entry.points.begin(),
                  [&](const glm::dvec3& point) {
                    return light.studio.distant ? glm::vec4(glm::vec3(point), 0.0F)

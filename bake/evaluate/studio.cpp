@@ -17,6 +17,13 @@ double smooth_step(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
+/// Times the distance.
+double cosine_at_light(const StudioLight& light, const glm::dvec3& to_light, double squared_distance) {
+  if (light.direction == glm::dvec3(0)) return std::sqrt(squared_distance);
+  const double ahead = -glm::dot(light.direction, to_light);
+  return light.two_sided ? std::abs(ahead) : ahead;
+}
+
 }  // namespace
 
 glm::vec3 studio_colour(std::size_t index, std::size_t count) {
@@ -30,6 +37,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
   const glm::dvec3 origin = apply(light_to_world, glm::dvec3(0));
   StudioLight studio;
   studio.distant = is_distant(light);
+  studio.two_sided = light.two_sided;
   if (!is_sphere(light)) studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
   std::size_t n = 0;
   for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
@@ -55,8 +63,7 @@ float irradiance(const StudioLight& light, const glm::dvec3& position, const glm
     const glm::dvec3 to_light = light.distant ? on_light : on_light - position;
     const double squared = std::max(glm::dot(to_light, to_light), 1e-30);
     const double at_surface = glm::dot(glm::dvec3(normal), to_light),
-                 at_light = light.direction == glm::dvec3(0) ? std::sqrt(squared)
-                                                             : -glm::dot(light.direction, to_light);
+                 at_light = cosine_at_light(light, to_light, squared);
     if (at_surface > 0 && at_light > 0) sum += at_surface * at_light / (squared * squared);
   }
   return static_cast<float>(sum / static_cast<double>(light.points.size()));

@@ -26,6 +26,7 @@ struct StudioLight {
   std::array<glm::dvec3, 9> points{};
   bool distant = false;
   glm::dvec3 direction{0};  ///< unit; 0 of a light that shines to all sides
+  bool two_sided = false;   ///< shines against `direction`, too
   glm::vec3 colour{1};      ///< times irradiance(): light that arrives
 };
 

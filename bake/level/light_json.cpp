@@ -21,7 +21,8 @@ nlohmann::ordered_json light_json(const Light& light) {
     json["type"] = "disk";
     json["radius"] = std::get<DiskLight>(light.shape).radius;
   }
-  if (view_count(light) > 1) json["faces"] = view_count(light);
+  if (light.two_sided) json["two_sided"] = true;
+  if (view_count(light) > 2) json["faces"] = view_count(light);
   if (!is_distant(light)) json["position"] = {light.position.x, light.position.y, light.position.z};
   json["direction"] = {r[6], r[7], r[8]};
   json["up"] = {r[3], r[4], r[5]};

@@ -14,6 +14,9 @@ constexpr std::uint32_t kLeastFaceTexels = 8;
 /// Share of the light's size that geometry may lie before its plane and still be the emitter.
 constexpr double kEmitterShareOfLight = 1e-4;
 
+/// The view that looks along -z.
+constexpr std::uint32_t kBackFace = 5;
+
 /// The axes of each view in those of the first, as columns x, y, z.
 glm::dmat3 face_axes(std::uint32_t index) {
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
@@ -27,14 +30,23 @@ std::array<double, 3> light_reach(const Light& light) {
   return {x, y, is_sphere(light) ? x : 0.0};
 }
 
+/// Whether the views are those of a cube or a half of one.
+bool has_cube(const Light& light) {
+  return view_count(light) > 2;
+}
+
 void check_faces(const Light& light, std::uint32_t width, std::uint32_t height) {
   const auto refuse = [&](const char* field, const char* reason) {
     throw Error(Failure::input, light.name + "." + field, reason);
   };
   const bool is_planar = !is_sphere(light) && !is_distant(light);
-  if (is_planar && light.faces != 1 && light.faces != 5) refuse("faces", "must be 1 or 5 for planar lights");
+  if (light.two_sided && !is_planar) refuse("two_sided", "must be of a planar light");
+  if (is_planar && light.two_sided && light.faces != 1 && light.faces != 6)
+    refuse("faces", "must be 1 or 6 for two-sided lights");
+  if (is_planar && !light.two_sided && light.faces != 1 && light.faces != 5)
+    refuse("faces", "must be 1 or 5 for planar lights");
   if (is_distant(light) && light.faces != 1) refuse("faces", "must be 1 for distant lights");
-  if (view_count(light) == 1) return;
+  if (!has_cube(light)) return;
   if (light.window) refuse("window", "must not be given together with several faces");
   if (std::min(width, height) < kLeastFaceTexels)
     throw Error(Failure::usage, "--resolution", "must be at least 8 texels for a light of several faces");
@@ -64,16 +76,16 @@ LightFace light_face(const Light& light, std::uint32_t index, std::uint32_t widt
   assert(index < std::max(1U, view_count(light)));
   check_faces(light, width, height);
   const std::array<double, 3> reach = light_reach(light);
-  LightFace face{light, reach, glm::dmat3(1.0), width, height, view_count(light) > 1, {}};
+  LightFace face{light, reach, glm::dmat3(1.0), width, height, view_count(light) > 1, has_cube(light), {}};
   if (!face.is_one_of_several) return face;
   const double texel_x = 2.0 / (width - 2), texel_y = 2.0 / (height - 2);
-  face.light.window = {-1 - texel_x, -1 - texel_y, 1 + texel_x, 1 + texel_y};
+  if (face.is_of_cube) face.light.window = {-1 - texel_x, -1 - texel_y, 1 + texel_x, 1 + texel_y};
   if (index == 0) return face;
-  face.to_light = face_axes(index);
+  face.to_light = face_axes(face.is_of_cube ? index : kBackFace);
   const glm::dvec3 turned = glm::abs(glm::dvec3(reach[0], reach[1], reach[2]) * face.to_light);
   face.reach = {turned.x, turned.y, turned.z};
   turn(face.to_light, face.light);
-  if (is_sphere(light)) return face;
+  if (is_sphere(light) || light.two_sided) return face;
   face.front = glm::dvec3(0, 0, 1) * face.to_light;
   // The upper half, and the seam below it.
   face.height = (height + 1) / 2 + 1;

@@ -16,7 +16,8 @@
 ///   1 .. 4  along +x, -x, +y, -y, with the light's +z upwards; of half a cube what is in front of the light
 ///   5       along -z
 ///
-/// Windows are 90 degrees and one texel more on each side, so that texel centres lie on both sides of a seam.
+/// Windows of these are 90 degrees and one texel more on each side, so that texel centres lie on both sides
+/// of a seam. A two-sided planar light has all six, or 0 and 5 alone, each with its own window.
 namespace pdsm {
 
 /// One view while it is fitted and baked.
@@ -26,6 +27,7 @@ struct LightFace {
   glm::dmat3 to_light{1.0};             ///< view space to that of view 0: a signed permutation, exact
   std::uint32_t width = 0, height = 0;  ///< texels
   bool is_one_of_several = false;
+  bool is_of_cube = false;  ///< with seams to others
   /// Of a view that looks along a planar light's plane: what the light is in front of, in view space.
   std::optional<glm::dvec3> front;
 

@@ -363,7 +363,7 @@ FittedView ViewFitter::fit() const {
                 "a distant light's space must begin in front of its casters: see place_distant_light()");
   }
   view.near_depth = light_.near_depth ? *light_.near_depth : fit_near(nearest, fitted);
-  if (face_.is_one_of_several) {
+  if (face_.is_of_cube) {
     fitted.casts_before_near = nearest < view.near_depth * (1 - 2 * kDepthPad);
     // A view that nothing lies in behind its near has nothing to tell, but needs a depth.
     if (fitted.far_fitted) view.far_depth = std::max(view.far_depth, kNearByReach * view.near_depth);

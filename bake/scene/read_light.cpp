@@ -28,12 +28,12 @@ LightShape read_shape(const JsonFields& fields) {
   const std::string type = fields.text("type");
   if (type == "rect") {
     fields.allow_only({"name", "type", "position", "direction", "up", "width", "height", "fov", "window",
-                       "near", "far", "faces", "emission", "resolution", "samples"});
+                       "near", "far", "faces", "two_sided", "emission", "resolution", "samples"});
     return RectLight{fields.not_negative("width"), fields.not_negative("height")};
   }
   if (type == "disk") {
     fields.allow_only({"name", "type", "position", "direction", "up", "radius", "fov", "window", "near",
-                       "far", "faces", "emission", "resolution", "samples"});
+                       "far", "faces", "two_sided", "emission", "resolution", "samples"});
     return DiskLight{fields.not_negative("radius")};
   }
   if (type == "distant") {
@@ -53,14 +53,18 @@ LightShape read_shape(const JsonFields& fields) {
 /// Views of the light's map; several leave no choice of window.
 void read_faces(const JsonFields& fields, Light& light) {
   light.faces = is_sphere(light) ? 6 : 1;
+  if (fields.has("two_sided")) light.two_sided = fields.boolean("two_sided");
   const json* faces = fields.find("faces");
   if (faces == nullptr) return;
   if (is_sphere(light)) {
     if (*faces != 6) fields.refuse("faces", "must be 6 for sphere lights");
     return;
   }
-  if (*faces != 1 && *faces != 5) fields.refuse("faces", "must be 1 or 5 for rect and disk lights");
-  light.faces = *faces == 5 ? 5 : 1;
+  const std::uint32_t all = light.two_sided ? 6 : 5;
+  if (*faces != 1 && *faces != all)
+    fields.refuse("faces", light.two_sided ? "must be 1 or 6 for two-sided lights"
+                                           : "must be 1 or 5 for rect and disk lights");
+  light.faces = *faces == 1 ? 1 : all;
   for (const char* key : {"window", "fov"})
     if (light.faces > 1 && fields.has(key))
       fields.refuse(key, "must not be given together with several faces");

@@ -117,7 +117,7 @@ void list_visibility(const BakeFacts& facts, std::uint64_t texels, bool is_one_o
 }
 
 void list_faces(const MapFacts& map, FeatureList& list) {
-  list.either(count_views(map) > 1, "faces", "the light shines to all sides: one view is not enough",
+  list.either(count_views(map) > 1, "faces", "the light shines to more sides than one view sees",
               "one view holds the window", counted(5 * count_texels(map), "texels"));
 }
 

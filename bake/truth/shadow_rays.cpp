@@ -7,21 +7,60 @@
 #include "truth/random.h"
 
 namespace pdsm {
+namespace {
 
-ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth) {
+/// A picture as it is seen from behind.
+std::shared_ptr<const EmissionImage> mirrored(const EmissionImage& image) {
+  auto result = std::make_shared<EmissionImage>(image);
+  for (std::size_t row = 0; row < image.height; ++row) {
+    const auto reverse_row = [&](auto& values) {
+      const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * image.width);
+      std::reverse(begin, begin + image.width);
+    };
+    reverse_row(result->luminance);
+    if (!result->colour.empty()) reverse_row(result->colour);
+  }
+  return result;
+}
+
+/// The light turned round its y axis, with what it emits where it was.
+Light turned_round(const Light& light) {
+  Light turned = light;
+  const auto& r = light_frame(light).rotation;
+  turned.direction = -glm::dvec3(r[6], r[7], r[8]);
+  turned.up = glm::dvec3(r[3], r[4], r[5]);
+  if (light.emission) turned.emission = mirrored(*light.emission);
+  return turned;
+}
+
+}  // namespace
+
+ShadowRays::ShadowRays(const Scene& scene, const Light& light, double near_depth)
+    : world_to_light_(light_frame(light)), channels_(make_channels(scene, light, near_depth)) {
+  if (light.two_sided) behind_ = make_channels(scene, turned_round(light), near_depth);
+}
+
+ShadowRays::Channels ShadowRays::make_channels(const Scene& scene, const Light& light,
+                                               double near_depth) const {
   std::ranges::for_each(scene.geometry, check_opacity);
-  const bool coloured = may_be_coloured(scene, light);
-  for (std::uint32_t channel = 0; channel < (coloured ? kColourChannels : 1); ++channel)
-    channels_.push_back(std::make_unique<const ChannelRays>(channel_scene(scene, channel),
-                                                            channel_light(light, channel), near_depth));
+  Channels channels;
+  const std::uint32_t count = may_be_coloured(scene, light) ? kColourChannels : 1;
+  for (std::uint32_t channel = 0; channel < count; ++channel)
+    channels.push_back(std::make_unique<const ChannelRays>(channel_scene(scene, channel),
+                                                           channel_light(light, channel), near_depth));
+  return channels;
+}
+
+const ShadowRays::Channels& ShadowRays::channels_at(const glm::dvec3& world_point) const {
+  return !behind_.empty() && apply(world_to_light_, world_point).z < 0 ? behind_ : channels_;
 }
 
 template <typename OfChannel>
-std::array<double, 3> ShadowRays::each(const OfChannel& of_channel) const {
+std::array<double, 3> ShadowRays::each(const Channels& channels, const OfChannel& of_channel) {
   std::array<double, 3> values{};
-  values.fill(of_channel(*channels_.front()));
-  for (std::size_t channel = 1; channel < channels_.size(); ++channel)
-    values[channel] = of_channel(*channels_[channel]);
+  values.fill(of_channel(*channels.front()));
+  for (std::size_t channel = 1; channel < channels.size(); ++channel)
+    values[channel] = of_channel(*channels[channel]);
   return values;
 }
 
@@ -32,18 +71,20 @@ double ShadowRays::attenuation(const glm::dvec3& world_point, std::uint32_t samp
 
 std::array<double, 3> ShadowRays::rgb(const glm::dvec3& world_point, std::uint32_t samples,
                                       std::uint64_t seed) const {
-  return each([&](const ChannelRays& rays) { return rays.attenuation(world_point, samples, seed); });
+  return each(channels_at(world_point),
+              [&](const ChannelRays& rays) { return rays.attenuation(world_point, samples, seed); });
 }
 
 std::array<double, 3> ShadowRays::model_rgb(const glm::dvec3& world_point, std::uint32_t samples,
                                             std::uint64_t seed) const {
-  return each([&](const ChannelRays& rays) { return rays.model_attenuation(world_point, samples, seed); });
+  return each(channels_,
+              [&](const ChannelRays& rays) { return rays.model_attenuation(world_point, samples, seed); });
 }
 
 double ShadowRays::attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
                                const CasterBias* bias) const {
-  return brightness(
-      each([&](const ChannelRays& rays) { return rays.attenuation(world_point, light_points, bias); }));
+  return brightness(each(
+      channels_, [&](const ChannelRays& rays) { return rays.attenuation(world_point, light_points, bias); }));
 }
 
 std::vector<double> ShadowRays::attenuations(std::span<const glm::dvec3> world_points, std::uint32_t samples,

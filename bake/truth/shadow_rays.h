@@ -30,10 +30,10 @@ class ShadowRays {
   [[nodiscard]] bool is_coloured() const { return channels_.size() > 1; }
 
   /// Share of the light of `samples` (>= 1) light points that casters keep from `world_point` (metres); 0
-  /// behind the light, and within a sphere light. Of that, what the point sees of it counts, by solid angle.
-  /// Rays leave the point at 1e-4 of the distance to the light point, or to where a distant light's space
-  /// begins. A pure function of its arguments. Of three channels how bright they are together, as a look-up
-  /// tells it.
+  /// behind the light unless it is two-sided, and within a sphere light. Of that, what the point sees of it
+  /// counts, by solid angle. Rays leave the point at 1e-4 of the distance to the light point, or to where a
+  /// distant light's space begins. A pure function of its arguments. Of three channels how bright they are
+  /// together, as a look-up tells it.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                    std::uint64_t seed) const;
 
@@ -57,15 +57,24 @@ class ShadowRays {
                                                         bool same_seed = false) const;
 
   /// Share of the light of the given light points (1 or more) that casters keep from `world_point`; 0 behind
-  /// the light. With `bias`, a caster hides nothing from points as near behind it, in depth, as its bias.
+  /// the light, two-sided or not. With `bias`, a caster hides nothing from points as near behind it, in
+  /// depth, as its bias.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
                                    const CasterBias* bias = nullptr) const;
 
  private:
-  template <typename OfChannel>
-  [[nodiscard]] std::array<double, 3> each(const OfChannel& of_channel) const;
+  /// One where all are the same.
+  using Channels = std::vector<std::unique_ptr<const ChannelRays>>;
 
-  std::vector<std::unique_ptr<const ChannelRays>> channels_;  ///< one where all are the same
+  [[nodiscard]] Channels make_channels(const Scene& scene, const Light& light, double near_depth) const;
+  template <typename OfChannel>
+  [[nodiscard]] static std::array<double, 3> each(const Channels& channels, const OfChannel& of_channel);
+  /// Those of the side that the point is on.
+  [[nodiscard]] const Channels& channels_at(const glm::dvec3& world_point) const;
+
+  RigidTransform world_to_light_;
+  Channels channels_;
+  Channels behind_;  ///< of a two-sided light turned round; else empty
 };
 
 /// How bright the channels are together (Rec. 709).

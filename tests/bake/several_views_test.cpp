@@ -33,6 +33,13 @@ Light half_cube() {
   return light;
 }
 
+Light two_sided(std::uint32_t faces) {
+  Light light = rect_light(0.6, 0.4);
+  light.two_sided = true;
+  light.faces = faces;
+  return light;
+}
+
 /// Things to all sides, some of them across the edges of the cube, in a room.
 Scene surrounded() {
   Scene scene;
@@ -55,7 +62,11 @@ BakeOptions options_of_size(std::uint32_t size) {
 
 class SeveralViews : public ::testing::TestWithParam<const char*> {
  protected:
-  [[nodiscard]] Light light() const { return std::string(GetParam()) == "sphere" ? bulb() : half_cube(); }
+  [[nodiscard]] Light light() const {
+    const std::string name = GetParam();
+    if (name == "sphere") return bulb();
+    return name == "half_cube" ? half_cube() : two_sided(name == "cube" ? 6 : 1);
+  }
   [[nodiscard]] BakedMap bake_here(const BakeOptions& options, const BakeCallbacks& callbacks = {},
                                    Checkpoint* checkpoint = nullptr) const {
     return bake(surrounded(), light(), options, callbacks, checkpoint);
@@ -78,8 +89,11 @@ TEST_P(SeveralViews, FramesAgreeAboutAllPoints) {
 }
 
 TEST_P(SeveralViews, EachDirectionIsInTheWindowOfAView) {
+  // Two views have windows that are fitted.
+  const bool is_cube = view_count(light()) > 2;
+  EXPECT_EQ(light_face(light(), 1, 32, 48).light.window.has_value(), is_cube);
   Random random(2);
-  for (int n = 0; n < 500; ++n) {
+  for (int n = 0; is_cube && n < 500; ++n) {
     const glm::dvec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     if (light().faces == 5 && p.z <= 0) continue;
     int holding = 0;
@@ -120,7 +134,7 @@ TEST_P(SeveralViews, RaysThatAreLeftOutHaveNoEvents) {
     ++views;
     EXPECT_EQ(job_blocks(job, true), job_blocks(job, false)) << view;
   }
-  EXPECT_GE(views, 4U);
+  EXPECT_GE(views, view_count(light()) > 2 ? 4U : 0U);
 }
 
 TEST_P(SeveralViews, CheckpointsGoOn) {
@@ -129,7 +143,7 @@ TEST_P(SeveralViews, CheckpointsGoOn) {
   BakeOptions options = options_of_size(150);
   options.tile = 64;
   const BakedMap whole = bake_here(options);
-  for (const double share : {0.3, 0.8}) {
+  for (const double share : {0.3, 0.5}) {
     {
       Checkpoint checkpoint({file, 0, {}});
       BakeCallbacks callbacks;
@@ -156,17 +170,18 @@ TEST_P(SeveralViews, ShardsMergeToTheBake) {
 
 TEST_P(SeveralViews, KeysTellFacesApart) {
   Light other = light();
+  other.faces = 1;
   if (is_sphere(other))
     other.shape = DiskLight{0.2};
-  else
-    other.faces = 1;
+  else if (other.faces == light().faces)
+    other.two_sided = false;
   const BakeOptions options = options_of_size(64);
   const std::string key = map_key(surrounded(), light(), options).key;
   EXPECT_EQ(key, bake_here(options).report.key);
   EXPECT_NE(key, map_key(surrounded(), other, options).key);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lights, SeveralViews, ::testing::Values("sphere", "half_cube"),
+INSTANTIATE_TEST_SUITE_P(Lights, SeveralViews, ::testing::Values("sphere", "half_cube", "two_sided", "cube"),
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(LightFaces, RefusesWhatCannotBe) {

@@ -26,6 +26,9 @@ class SeveralViewsCommand : public ScratchScene {
                         {"faces", 5},
                         {"far", 4}}};
     write_file("ceiling.scene.json", scene.dump());
+    scene["lights"][0].erase("faces");
+    scene["lights"][0]["two_sided"] = true;
+    write_file("panel.scene.json", scene.dump());
   }
 
   [[nodiscard]] Outcome bake(const std::string& scene, std::vector<std::string> extra = {}) const {
@@ -37,8 +40,9 @@ class SeveralViewsCommand : public ScratchScene {
 };
 
 TEST_F(SeveralViewsCommand, FromBakeToError) {
-  for (const auto& [scene, views, dark] :
-       {std::tuple("bulb.scene.json", 6U, 0.4), {"ceiling.scene.json", 5U, 1.0}}) {
+  for (const auto& [scene, views, dark] : {std::tuple("bulb.scene.json", 6U, 0.4),
+                                           {"ceiling.scene.json", 5U, 1.0},
+                                           {"panel.scene.json", 2U, 1.0}}) {
     ASSERT_EQ(bake(scene, {"--report", "report.json"}).exit_code, 0);
     const Outcome info = run({"info", "map.pdsm", "--json"});
     EXPECT_EQ(nlohmann::json::parse(info.out)["views"].size(), views);

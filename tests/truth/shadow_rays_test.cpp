@@ -354,5 +354,24 @@ TEST(ShadowRays, NothingBehindTheEmitterHidesGivenPoints) {
   EXPECT_EQ(rays.attenuation({0.6, 0, 5}, far_behind), 1);
 }
 
+TEST(ShadowRays, TwoSidedLightsShineToBothSides) {
+  // From behind the middle of each edge the half x > 0 of the light is hidden.
+  Scene scene;
+  scene.geometry = {plate(0, -50, 50, 50, 1), plate(0, -50, 50, 50, -1)};
+  Light light = light_at_origin(RectLight{1, 1});
+  // Three quarters of the light come from there, from wherever one looks.
+  light.emission = std::make_shared<const EmissionImage>(EmissionImage{2, 1, {1, 3}});
+  light.two_sided = true;
+  const ShadowRays rays(scene, light, 0.5);
+  for (const double z : {2.0, -2.0}) {
+    EXPECT_NEAR(rays.attenuation({0, 0, z}, 256, 1), 0.75, 1e-9) << z;
+    EXPECT_EQ(rays.attenuation({0.2, 0, z / 4}, 256, 1), 0) << z;
+  }
+  light.two_sided = false;
+  const ShadowRays ahead(scene, light, 0.5);
+  EXPECT_NEAR(ahead.attenuation({0, 0, 2}, 256, 1), 0.75, 1e-9);
+  EXPECT_EQ(ahead.attenuation({0, 0, -2}, 256, 1), 0);
+}
+
 }  // namespace
 }  // namespace pdsm

@@ -2,7 +2,7 @@
 // The lights that are on, and what arrives of them.
 struct ViewerLight {
   vec4 colour;     // linear RGB; w: number of its map, -1 without one
-  vec4 direction;  // unit; 0 of a light that shines to all sides
+  vec4 direction;  // unit; 0 of a light that shines to all sides. w = 1: against it, too
   vec4 points[9];  // equal areas of the emitter; [4] is the centre. w = 0: unit vectors to a distant light
 };
 layout(std140) uniform ViewerLights {
@@ -17,7 +17,9 @@ vec3 way_to_light(vec4 point, vec3 position) {
 // Distance times the cosine at the light.
 float facing(int light, vec3 to_light) {
   vec3 direction = viewer_lights[light].direction.xyz;
-  return direction == vec3(0.0) ? length(to_light) : max(-dot(direction, to_light), 0.0);
+  if (direction == vec3(0.0)) return length(to_light);
+  float ahead = -dot(direction, to_light);
+  return viewer_lights[light].direction.w > 0.0 ? abs(ahead) : max(ahead, 0.0);
 }
 
 // As irradiance() in bake/evaluate/studio.h.

@@ -121,7 +121,7 @@ inline constexpr std::uint32_t kMostEmissionTexels = 8192;
 
 using LightShape = std::variant<RectLight, DiskLight, DistantLight, SphereLight>;
 
-/// A one-sided planar area light, a distant one, or a sphere.
+/// A planar area light, a distant one, or a sphere.
 struct Light {
   std::string name;  ///< [A-Za-z0-9_-]+, unique in the scene
   LightShape shape;
@@ -135,8 +135,11 @@ struct Light {
   std::optional<double> near_depth, far_depth;             ///< metres; default fitted
   std::optional<std::array<std::uint32_t, 2>> resolution;  ///< texels, width x height
   std::optional<std::uint32_t> samples;
-  /// Views of a planar light's map: 1, or 5 that see all in front of it (half a cube). A sphere light has 6,
-  /// whatever this says. Several views leave no choice of `window`.
+  /// Whether a planar light shines to both sides of its plane.
+  bool two_sided = false;
+  /// Views of a planar light's map, a side: 1, or all that see what the light shines on: 5 (half a cube), of
+  /// a two-sided one 6 in all (a cube). A sphere light has 6, whatever this says. Cubes leave no choice of
+  /// `window`.
   std::uint32_t faces = 1;
   std::shared_ptr<const EmissionImage> emission;  ///< of rect and disk lights; null: the same everywhere
 };
@@ -181,7 +184,8 @@ struct Scene {
 
 /// Views of a light's map.
 [[nodiscard]] inline std::uint32_t view_count(const Light& light) {
-  return is_sphere(light) ? 6 : light.faces;
+  if (is_sphere(light)) return 6;
+  return light.two_sided && light.faces == 1 ? 2 : light.faces;
 }
 
 /// Moves the origin of a distant light's space in front of all that casts or receives: on the middle of

@@ -19,7 +19,7 @@ struct FittedView {
   /// No light-facing receiver lies in the window, in front of the light and up to far: the light reaches
   /// nothing of the scene. The view is fitted to casters then.
   bool nothing_receives = false;
-  /// Of a light of several views: casters lie before near, so that there are points before it, all lit in the
+  /// Of a view of a cube: casters lie before near, so that there are points before it, all lit in the
   /// map, that are not.
   bool casts_before_near = false;
 };
@@ -31,8 +31,8 @@ struct FittedView {
 ///   near    depth of the nearest caster within the hull of light and window (not of the window alone);
 ///           geometry at or behind 1e-4 of it never blocks, but before a distant light all does
 ///   far     depth of the farthest receiver in the window (caster, if nothing receives)
-/// Of a light of several views, the first is fitted; its window is given, and `receivers_outside` is 0.
-/// `width`, `height`: texels. Throws Error (input) when near >= far is asked for, and for a distant light
+/// Of a light of several views, the first is fitted; windows of cubes are given, and `receivers_outside` is
+/// 0. `width`, `height`: texels. Throws Error (input) when near >= far is asked for, and for a distant light
 /// whose position is not in front of its casters.
 [[nodiscard]] FittedView fit_view(const Scene& scene, const Light& light, std::uint32_t width,
                                   std::uint32_t height);
