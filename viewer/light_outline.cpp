@@ -25,6 +25,17 @@ std::vector<glm::dvec2> circle(double radius) {
   return points;
 }
 
+/// All edges of a box about the light's centre in one line, some of them twice.
+std::vector<glm::dvec3> box_outline(const std::array<double, 3>& half, const RigidTransform& to_world) {
+  constexpr std::array<unsigned, 16> kCorners{0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4};
+  std::vector<glm::dvec3> outline;
+  for (const unsigned corner : kCorners)
+    outline.push_back(apply(
+        to_world, glm::dvec3((corner & 1U) != 0 ? half[0] : -half[0], (corner & 2U) != 0 ? half[1] : -half[1],
+                             (corner & 4U) != 0 ? half[2] : -half[2])));
+  return outline;
+}
+
 }  // namespace
 
 RigidTransform drawn_frame(const Light& light, const Focus& focus) {
@@ -38,6 +49,7 @@ RigidTransform drawn_frame(const Light& light, const Focus& focus) {
 
 std::vector<glm::dvec3> light_outline(const Light& light, const Focus& focus) {
   const RigidTransform to_world = inverse(drawn_frame(light, focus));
+  if (std::holds_alternative<MeshLight>(light.shape)) return box_outline(half_box(light), to_world);
   std::vector<glm::dvec2> in_plane;
   if (const auto* rect = std::get_if<RectLight>(&light.shape))
     in_plane = outline_of(*rect);

@@ -107,8 +107,7 @@ int run_verify(const VerifyCommand& command) {
     write_warning(
         fmt::format("only {} of {} points found in the window", report.result.points, options.points));
   }
-  if (is_sphere(light) && !command.no_budget)
-    report.light = measure_light_model(scene, light, truth, options);
+  if (is_body(light) && !command.no_budget) report.light = measure_light_model(scene, light, truth, options);
   if (bake_options) report.budget = measure_error_budget(map, scene, light, *bake_options, truth);
   if (!command.heat_map.empty()) write_heat_map(command, map, scene, light);
   write_result(command.json ? verify_json(report) : verify_text(report));

@@ -38,7 +38,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
   StudioLight studio;
   studio.distant = is_distant(light);
   studio.two_sided = light.two_sided;
-  if (!is_sphere(light)) studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
+  if (!is_body(light)) studio.direction = apply(light_to_world, glm::dvec3(0, 0, 1)) - origin;
   std::size_t n = 0;
   for (const double u : {1 / 6.0, 0.5, 5 / 6.0}) {
     for (const double v : {1 / 6.0, 0.5, 5 / 6.0}) {
@@ -50,7 +50,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
   const glm::dvec3 to_centre = studio.distant ? centre : centre - focus.centre;
   float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(to_centre)));
   if (!(reference > 0)) {
-    const glm::dvec3 ahead = is_sphere(light) ? glm::dvec3(0, -1, 0) : studio.direction;
+    const glm::dvec3 ahead = is_body(light) ? glm::dvec3(0, -1, 0) : studio.direction;
     reference = irradiance(studio, centre + 2 * focus.radius * ahead, glm::vec3(-ahead));
   }
   studio.colour = colour / reference;

@@ -17,6 +17,10 @@ nlohmann::ordered_json light_json(const Light& light) {
   } else if (const auto* sphere = std::get_if<SphereLight>(&light.shape)) {
     json["type"] = "sphere";
     json["radius"] = sphere->radius;
+  } else if (std::holds_alternative<MeshLight>(light.shape)) {
+    const auto [x, y, z] = half_box(light);
+    json["type"] = "mesh";
+    json["size"] = {2 * x, 2 * y, 2 * z};
   } else {
     json["type"] = "disk";
     json["radius"] = std::get<DiskLight>(light.shape).radius;

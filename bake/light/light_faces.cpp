@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "light/mesh_samples.h"
 #include "pdsm/format/error.h"
 
 namespace pdsm {
@@ -25,11 +26,6 @@ glm::dmat3 face_axes(std::uint32_t index) {
   return axes[index];
 }
 
-std::array<double, 3> light_reach(const Light& light) {
-  const auto [x, y] = half_extents(light);
-  return {x, y, is_sphere(light) ? x : 0.0};
-}
-
 /// Whether the views are those of a cube or a half of one.
 bool has_cube(const Light& light) {
   return view_count(light) > 2;
@@ -39,7 +35,7 @@ void check_faces(const Light& light, std::uint32_t width, std::uint32_t height) 
   const auto refuse = [&](const char* field, const char* reason) {
     throw Error(Failure::input, light.name + "." + field, reason);
   };
-  const bool is_planar = !is_sphere(light) && !is_distant(light);
+  const bool is_planar = !is_body(light) && !is_distant(light);
   if (light.two_sided && !is_planar) refuse("two_sided", "must be of a planar light");
   if (is_planar && light.two_sided && light.faces != 1 && light.faces != 6)
     refuse("faces", "must be 1 or 6 for two-sided lights");
@@ -74,8 +70,9 @@ std::array<double, 3> LightFace::from_light(const std::array<double, 3>& p) cons
 
 LightFace light_face(const Light& light, std::uint32_t index, std::uint32_t width, std::uint32_t height) {
   assert(index < std::max(1U, view_count(light)));
+  check_mesh_light(light);
   check_faces(light, width, height);
-  const std::array<double, 3> reach = light_reach(light);
+  const std::array<double, 3> reach = half_box(light);
   LightFace face{light, reach, glm::dmat3(1.0), width, height, view_count(light) > 1, has_cube(light), {}};
   if (!face.is_one_of_several) return face;
   const double texel_x = 2.0 / (width - 2), texel_y = 2.0 / (height - 2);
@@ -85,7 +82,7 @@ LightFace light_face(const Light& light, std::uint32_t index, std::uint32_t widt
   const glm::dvec3 turned = glm::abs(glm::dvec3(reach[0], reach[1], reach[2]) * face.to_light);
   face.reach = {turned.x, turned.y, turned.z};
   turn(face.to_light, face.light);
-  if (is_sphere(light) || light.two_sided) return face;
+  if (is_body(light) || light.two_sided) return face;
   face.front = glm::dvec3(0, 0, 1) * face.to_light;
   // The upper half, and the seam below it.
   face.height = (height + 1) / 2 + 1;

@@ -9,8 +9,8 @@
 
 #include "pdsm/bake/scene.h"
 
-/// The views of a light's map. Most lights have one. A sphere light has the six faces of a cube, a planar one
-/// with `faces: 5` those of half a cube, all with the light's centre as their origin:
+/// The views of a light's map. Most lights have one. A sphere or mesh light has the six faces of a cube, a
+/// planar one with `faces: 5` those of half a cube, all with the light's centre as their origin:
 ///
 ///   0       along the light's +z
 ///   1 .. 4  along +x, -x, +y, -y, with the light's +z upwards; of half a cube what is in front of the light
@@ -38,8 +38,8 @@ struct LightFace {
 };
 
 /// The view `index` of `view_count(light)`, of a map of `width` x `height` texels in its first view. Throws
-/// Error (input) for faces that the light can't have or a window besides several views, (usage) where the
-/// map is too small for the seams.
+/// Error (input) for faces that the light can't have, a mesh that is none or a window besides several views,
+/// (usage) where the map is too small for the seams.
 [[nodiscard]] LightFace light_face(const Light& light, std::uint32_t index, std::uint32_t width,
                                    std::uint32_t height);
 

@@ -79,14 +79,25 @@ RigidTransform inverse(const RigidTransform& transform) {
 }
 
 std::array<double, 2> half_extents(const Light& light) {
-  if (const auto* rect = std::get_if<RectLight>(&light.shape)) return {rect->width / 2, rect->height / 2};
+  const auto [x, y, z] = half_box(light);
+  return {x, y};
+}
+
+std::array<double, 3> half_box(const Light& light) {
+  if (const auto* rect = std::get_if<RectLight>(&light.shape)) return {rect->width / 2, rect->height / 2, 0};
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) {
     const double tangent = std::tan(sun->angle / 2 * (std::numbers::pi / 180));
-    return {tangent, tangent};
+    return {tangent, tangent, 0};
   }
-  if (const auto* sphere = std::get_if<SphereLight>(&light.shape)) return {sphere->radius, sphere->radius};
+  if (const auto* sphere = std::get_if<SphereLight>(&light.shape))
+    return {sphere->radius, sphere->radius, sphere->radius};
+  if (const auto* emitter = std::get_if<MeshLight>(&light.shape)) {
+    glm::vec3 half(0);
+    for (const glm::vec3& p : emitter->mesh->positions) half = glm::max(half, glm::abs(p));
+    return {half.x, half.y, half.z};
+  }
   const double radius = std::get<DiskLight>(light.shape).radius;
-  return {radius, radius};
+  return {radius, radius, 0};
 }
 
 }  // namespace pdsm

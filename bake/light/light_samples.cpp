@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points on planar lights, in spheres and of directions to distant ones, and the sub-texel jitter of each
-// sample's map.
+// Points on planar lights, in spheres and meshes, and of directions to distant ones, and the sub-texel jitter
+// of each sample's map.
 //
 // Uniform points of the unit 3-sphere: Marsaglia, Choosing a Point from the Surface of a Sphere, 1972.
 #include <cassert>
@@ -10,6 +10,7 @@
 
 #include "light/disk_emission.h"
 #include "light/emission_warp.h"
+#include "light/mesh_samples.h"
 #include "light/point_sets.h"
 #include "pdsm/bake/bake.h"
 
@@ -91,6 +92,10 @@ Sampler sampler_of(const SphereLight& light, const EmissionImage*, const SampleS
     const Point3 p = ball_point(set, i);
     return Point3{p[0] * light.radius, p[1] * light.radius, p[2] * light.radius};
   };
+}
+
+Sampler sampler_of(const MeshLight& light, const EmissionImage*, const SampleSet& set) {
+  return [samples = mesh_samples(*light.mesh, set)](std::uint32_t i) { return samples[i]; };
 }
 
 /// One sample stands for the whole light at its centre, or at that of what a picture emits.

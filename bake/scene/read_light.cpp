@@ -46,18 +46,22 @@ LightShape read_shape(const JsonFields& fields) {
                        "resolution", "samples"});
     return SphereLight{fields.not_negative("radius")};
   }
-  if (type == "mesh") fields.refuse("type", "lights of type mesh: not supported yet");
-  fields.refuse("type", "must be rect, disk, sphere or distant");
+  if (type == "mesh") {
+    fields.allow_only({"name", "type", "file", "scale", "rotate", "translate", "direction", "up", "near",
+                       "far", "faces", "resolution", "samples"});
+    return MeshLight{};
+  }
+  fields.refuse("type", "must be rect, disk, sphere, mesh or distant");
 }
 
 /// Views of the light's map; several leave no choice of window.
 void read_faces(const JsonFields& fields, Light& light) {
-  light.faces = is_sphere(light) ? 6 : 1;
+  light.faces = is_body(light) ? 6 : 1;
   if (fields.has("two_sided")) light.two_sided = fields.boolean("two_sided");
   const json* faces = fields.find("faces");
   if (faces == nullptr) return;
-  if (is_sphere(light)) {
-    if (*faces != 6) fields.refuse("faces", "must be 6 for sphere lights");
+  if (is_body(light)) {
+    if (*faces != 6) fields.refuse("faces", "must be 6 for sphere and mesh lights");
     return;
   }
   const std::uint32_t all = light.two_sided ? 6 : 5;
@@ -123,11 +127,15 @@ std::array<std::uint32_t, 2> read_resolution(const JsonFields& fields) {
           static_cast<std::uint32_t>(value[1].get<double>())};
 }
 
-/// Position and axes. A distant light is placed when the geometry is known.
+bool is_mesh(const Light& light) {
+  return std::holds_alternative<MeshLight>(light.shape);
+}
+
+/// Position and axes. A distant light is placed when the geometry is known, a mesh light by its surfaces.
 void read_frame(const JsonFields& fields, Light& light) {
-  if (!is_distant(light)) light.position = fields.vector("position");
-  // A sphere looks the same from all sides: its axes are those of its views.
-  if (!is_sphere(light) || fields.has("direction")) light.direction = fields.vector("direction");
+  if (!is_distant(light) && !is_mesh(light)) light.position = fields.vector("position");
+  // The axes of what shines to all sides are those of its views alone.
+  if (!is_body(light) || fields.has("direction")) light.direction = fields.vector("direction");
   if (fields.has("up")) light.up = fields.vector("up");
   switch (frame_fault(light)) {
     case FrameFault::zero_direction:
@@ -160,10 +168,11 @@ Light read_unplaced_light(const JsonFields& fields, const std::string& default_n
 }  // namespace
 
 Light read_light(const json& node, const std::string& file, std::size_t index,
-                 const EmissionReader& read_emission) {
+                 const EmissionReader& read_emission, const EmitterReader& read_emitter) {
   const JsonFields fields(node, file, join_path("lights", index));
   Light light = read_unplaced_light(fields, fmt::format("light{}", index + 1), read_emission);
   read_frame(fields, light);
+  if (is_mesh(light)) set_emitter(read_emitter(fields), light);
   return light;
 }
 
@@ -173,6 +182,7 @@ Light read_placed_light(const JsonFields& fields, const std::string& default_nam
     if (fields.has(key)) fields.refuse(key, "is given by the node");
   }
   Light light = read_unplaced_light(fields, default_name, read_emission);
+  if (is_mesh(light)) fields.refuse("type", "mesh is for lights of scene files");
   set_place(place, light);
   return light;
 }

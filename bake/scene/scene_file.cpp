@@ -51,6 +51,7 @@ class SceneReader {
   template <typename Read>
   void read_each(const JsonFields& fields, const char* key, Read&& read_entry);
   std::shared_ptr<const EmissionImage> read_picture(const JsonFields& fields);
+  std::vector<Geometry> read_placed(const JsonFields& fields);
   void warn_of(const ImportedFile& file, const std::string& name);
 
   fs::path path_;
@@ -117,11 +118,21 @@ std::shared_ptr<const EmissionImage> SceneReader::read_picture(const JsonFields&
   }
 }
 
+/// The surfaces of a file, placed.
+std::vector<Geometry> SceneReader::read_placed(const JsonFields& fields) {
+  const glm::dmat4 placement = read_placement(fields);
+  std::vector<Geometry> parts = import(fields).parts;
+  if (parts.empty()) fields.refuse("file", "has no triangles");
+  place(parts, placement);
+  return parts;
+}
+
 void SceneReader::read_lights(const json& nodes) {
   std::map<std::string, std::size_t> names;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    Light light =
-        read_light(nodes[i], file_, i, [this](const JsonFields& fields) { return read_picture(fields); });
+    Light light = read_light(
+        nodes[i], file_, i, [this](const JsonFields& fields) { return read_picture(fields); },
+        [this](const JsonFields& fields) { return read_placed(fields); });
     const auto [other, fresh] = names.emplace(light.name, i);
     if (!fresh) {
       throw Error(Failure::input, file_ + ":" + join_path(join_path("lights", i), "name"),

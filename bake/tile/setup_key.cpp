@@ -22,6 +22,7 @@ void add_light(KeyHash& hash, const Light& light) {
   hash.add(light.shape.index());
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) hash.add(sun->angle);
   for (const double extent : half_extents(light)) hash.add(extent);
+  if (std::holds_alternative<MeshLight>(light.shape)) hash.add(half_box(light)[2]);
   for (int axis = 0; axis < 3; ++axis) hash.add(light.position[axis]);
   if (view_count(light) > 1) hash.add(kFacesFollow + view_count(light));
   // What a picture holds shows in the samples; that there is one, in what is told of the map.

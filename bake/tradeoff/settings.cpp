@@ -188,7 +188,11 @@ BakeOptions options_of(const TradeoffSetting& setting, BakeOptions base) {
 }
 
 Light scaled_light(Light light, double scale) {
-  if (auto* rect = std::get_if<RectLight>(&light.shape)) {
+  if (const auto* emitter = std::get_if<MeshLight>(&light.shape)) {
+    auto mesh = std::make_shared<Mesh>(*emitter->mesh);
+    for (glm::vec3& p : mesh->positions) p *= static_cast<float>(scale);
+    light.shape = MeshLight{std::move(mesh)};
+  } else if (auto* rect = std::get_if<RectLight>(&light.shape)) {
     rect->width *= scale;
     rect->height *= scale;
   } else if (auto* sun = std::get_if<DistantLight>(&light.shape)) {

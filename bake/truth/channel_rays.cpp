@@ -39,6 +39,13 @@ struct ChannelRays::Packet {
   std::array<glm::vec3, kPacketSize> direction;
   std::array<float, kPacketSize> end;
   std::array<LightPoint, kPacketSize> light_point;
+  std::array<double, kPacketSize> weight;
+};
+
+/// A light point and the share of the light that it stands for, up to a factor.
+struct ChannelRays::WeightedPoint {
+  LightPoint point;
+  double weight = 1;
 };
 
 /// What the filter of biased rays, and of rays through translucent surfaces, knows; rays carry their lane as
@@ -95,6 +102,11 @@ std::optional<double> radius_of(const Light& light) {
   return sphere == nullptr ? std::nullopt : std::optional(sphere->radius);
 }
 
+std::unique_ptr<const MeshEmitter> emitter_of(const Light& light) {
+  const auto* shape = std::get_if<MeshLight>(&light.shape);
+  return shape == nullptr ? nullptr : std::make_unique<const MeshEmitter>(*shape->mesh);
+}
+
 }  // namespace
 
 ChannelRays::ChannelRays(const Scene& scene, const Light& light, double near_depth)
@@ -103,7 +115,8 @@ ChannelRays::ChannelRays(const Scene& scene, const Light& light, double near_dep
       light_to_world_(inverse(world_to_light_)),
       distant_(is_distant(light)),
       sphere_radius_(radius_of(light)),
-      emitter_depth_(distant_ || sphere_radius_ ? -std::numeric_limits<double>::infinity()
+      emitter_(emitter_of(light)),
+      emitter_depth_(distant_ || is_body(light) ? -std::numeric_limits<double>::infinity()
                                                 : kEmitterShare * near_depth),
       // Triangles within the emitter are left out rather than cut off by the rays' end, where floats are
       // too coarse to tell a lamp's own face from what lies just before it.
@@ -122,30 +135,40 @@ ChannelRays::ChannelRays(const Scene& scene, const Light& light, double near_dep
 double ChannelRays::attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                 std::uint64_t seed) const {
   const JitteredGrid grid(samples);
+  const glm::dvec3 from = apply(world_to_light_, world_point);
   if (sphere_radius_) {
-    const glm::dvec3 from = apply(world_to_light_, world_point);
     const auto seen = [&](std::uint32_t n) {
-      return LightPoint{visible_cap_point(*sphere_radius_, from, grid.point(n, seed))};
+      return WeightedPoint{{visible_cap_point(*sphere_radius_, from, grid.point(n, seed))}};
     };
     return share_blocked(world_point, samples, seen, nullptr);
   }
-  const auto drawn = [&](std::uint32_t n) { return LightPoint{light_.point(grid.point(n, seed))}; };
+  if (emitter_) {
+    const auto seen = [&](std::uint32_t n) {
+      const MeshEmitter::Seen part = emitter_->seen(from, grid.point(n, seed));
+      return WeightedPoint{{part.point}, part.weight};
+    };
+    return share_blocked(world_point, samples, seen, nullptr);
+  }
+  const auto drawn = [&](std::uint32_t n) { return WeightedPoint{{light_.point(grid.point(n, seed))}}; };
   return share_blocked(world_point, samples, drawn, nullptr);
 }
 
 double ChannelRays::model_attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                       std::uint64_t seed) const {
-  assert(sphere_radius_);
+  assert(sphere_radius_ || emitter_);
   const JitteredGrid grid(samples);
   const auto drawn = [&](std::uint32_t n) {
-    return LightPoint{*sphere_radius_ * model_ball_point(grid.point(n, seed), hash_unit_pair(~seed, n))};
+    const std::array<double, 2> unit = grid.point(n, seed), more = hash_unit_pair(~seed, n);
+    if (emitter_)
+      return WeightedPoint{{emitter_->model_point(unit, more, hash_unit(hash_bits(~seed, n), 1))}};
+    return WeightedPoint{{*sphere_radius_ * model_ball_point(unit, more)}};
   };
   return share_blocked(world_point, samples, drawn, nullptr);
 }
 
 double ChannelRays::attenuation(const glm::dvec3& world_point, std::span<const LightPoint> light_points,
                                 const CasterBias* bias) const {
-  const auto given = [&](std::uint32_t n) -> const LightPoint& { return light_points[n]; };
+  const auto given = [&](std::uint32_t n) { return WeightedPoint{light_points[n]}; };
   return share_blocked(world_point, static_cast<std::uint32_t>(light_points.size()), given, bias);
 }
 
@@ -156,25 +179,35 @@ double ChannelRays::share_blocked(const glm::dvec3& world_point, std::uint32_t c
   Packet packet;
   const glm::dvec3 in_light_space = apply(world_to_light_, world_point);
   packet.depth = in_light_space.z;
-  const bool is_lit_side = sphere_radius_ ? glm::length(in_light_space) > *sphere_radius_
-                                          : packet.depth > std::max(emitter_depth_, 0.0);
-  if (!is_lit_side) return 0;
+  if (!is_lit_side(in_light_space)) return 0;
   packet.world_point = world_point;
   packet.origin = glm::vec3(world_point - casters_.centre());
-  double blocked = 0;
+  double blocked = 0, all = 0;
   for (std::uint32_t first = 0; first < count; first += kPacketSize) {
     const std::uint32_t size = std::min(kPacketSize, count - first);
     packet.size = 0;
-    for (std::uint32_t i = 0; i < size; ++i) add_ray(light_point(first + i), packet);
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const WeightedPoint drawn = light_point(first + i);
+      if (!(drawn.weight > 0)) continue;
+      all += drawn.weight;
+      add_ray(drawn, packet);
+    }
     blocked += sum_blocked(packet, bias);
     if (count - first <= kPacketSize) break;  // first + 16 may not fit 32 bits
   }
-  return blocked / count;
+  return all > 0 ? blocked / all : 0;
 }
 
-void ChannelRays::add_ray(const LightPoint& point, Packet& packet) const {
+bool ChannelRays::is_lit_side(const glm::dvec3& p) const {
+  if (emitter_) return true;
+  return sphere_radius_ ? glm::length(p) > *sphere_radius_ : p.z > std::max(emitter_depth_, 0.0);
+}
+
+void ChannelRays::add_ray(const WeightedPoint& drawn, Packet& packet) const {
   const std::uint32_t n = packet.size++;
+  const LightPoint& point = drawn.point;
   packet.light_point[n] = point;
+  packet.weight[n] = drawn.weight;
   if (distant_) {
     packet.rise[n] = packet.depth;
     packet.direction[n] = glm::vec3(-packet.depth * rotate(light_to_world_, point.position));
@@ -182,7 +215,7 @@ void ChannelRays::add_ray(const LightPoint& point, Packet& packet) const {
   } else {
     packet.rise[n] = packet.depth - point.position.z;
     packet.direction[n] = glm::vec3(apply(light_to_world_, point.position) - packet.world_point);
-    packet.end[n] = sphere_radius_
+    packet.end[n] = sphere_radius_ || emitter_
                         ? 1.0F
                         : static_cast<float>(std::min(1.0, (packet.depth - emitter_depth_) / packet.rise[n]));
   }
@@ -213,10 +246,11 @@ double ChannelRays::sum_blocked(const Packet& packet, const CasterBias* bias) co
   // Embree marks a blocked ray by a tfar of -inf.
   double blocked = 0;
   for (std::uint32_t i = 0; i < packet.size; ++i)
-    blocked += rays.tfar[i] < 0 ? 1
-               : volumes_.empty()
-                   ? translucent_.share_kept(context.crossings[i])
-                   : 1 - (1 - translucent_.share_kept(context.crossings[i])) * left_by_volumes(packet, i);
+    blocked += packet.weight[i] *
+               (rays.tfar[i] < 0 ? 1
+                : volumes_.empty()
+                    ? translucent_.share_kept(context.crossings[i])
+                    : 1 - (1 - translucent_.share_kept(context.crossings[i])) * left_by_volumes(packet, i));
   return blocked;
 }
 

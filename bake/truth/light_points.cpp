@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "truth/mesh_emitter.h"
 #include "truth/random.h"
 
 namespace pdsm {
@@ -54,6 +55,8 @@ glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit) {
   if (const auto* rect = std::get_if<RectLight>(&light.shape)) {
     return {(unit[0] - 0.5) * rect->width, (unit[1] - 0.5) * rect->height, 0};
   }
+  if (const auto* emitter = std::get_if<MeshLight>(&light.shape))
+    return mesh_surface_point(*emitter->mesh, unit);
   const std::array<double, 2> disk = concentric_disk(unit);
   if (const auto* sun = std::get_if<DistantLight>(&light.shape)) return cap_direction(sun->angle, disk);
   const auto* sphere = std::get_if<SphereLight>(&light.shape);

@@ -11,9 +11,10 @@
 namespace pdsm {
 
 /// Where the unit square goes on a light, in light space: a point of its plane (metres; of a sphere, of its
-/// great disk), or the direction of a distant light's rays, z = 1. Equal areas stay equal, for the distant
-/// light as solid angles. Rect: scaled. Disk: the concentric map, which keeps strata compact. Distant: that
-/// map lifted to the sphere. Paper: Shirley, Chiu, "A Low Distortion Map Between Disk and Square", 1997.
+/// great disk; of a mesh, of its surface), or the direction of a distant light's rays, z = 1. Equal areas
+/// stay equal, for the distant light as solid angles. Rect: scaled. Disk: the concentric map, which keeps
+/// strata compact. Distant: that map lifted to the sphere. Paper: Shirley, Chiu, "A Low Distortion Map
+/// Between Disk and Square", 1997.
 [[nodiscard]] glm::dvec3 light_point(const Light& light, const std::array<double, 2>& unit);
 
 /// Where the unit square goes on what `from` (light space, outside of the sphere) sees of a sphere light

@@ -30,10 +30,10 @@ class ShadowRays {
   [[nodiscard]] bool is_coloured() const { return channels_.size() > 1; }
 
   /// Share of the light of `samples` (>= 1) light points that casters keep from `world_point` (metres); 0
-  /// behind the light unless it is two-sided, and within a sphere light. Of that, what the point sees of it
-  /// counts, by solid angle. Rays leave the point at 1e-4 of the distance to the light point, or to where a
-  /// distant light's space begins. A pure function of its arguments. Of three channels how bright they are
-  /// together, as a look-up tells it.
+  /// behind the light unless it is two-sided, and within a sphere or a closed mesh light. Of those, what the
+  /// point sees of it counts, by solid angle. Rays leave the point at 1e-4 of the distance to the light
+  /// point, or to where a distant light's space begins. A pure function of its arguments. Of three channels
+  /// how bright they are together, as a look-up tells it.
   [[nodiscard]] double attenuation(const glm::dvec3& world_point, std::uint32_t samples,
                                    std::uint64_t seed) const;
 
@@ -41,8 +41,8 @@ class ShadowRays {
   [[nodiscard]] std::array<double, 3> rgb(const glm::dvec3& world_point, std::uint32_t samples,
                                           std::uint64_t seed) const;
 
-  /// The same with the baker's model of a sphere light in place of the sphere (light_points.h), of a radius
-  /// that this light must have.
+  /// The same with the baker's model of a sphere or mesh light, which this must be, in its place
+  /// (light_points.h, mesh_emitter.h).
   [[nodiscard]] std::array<double, 3> model_rgb(const glm::dvec3& world_point, std::uint32_t samples,
                                                 std::uint64_t seed) const;
 

@@ -26,6 +26,15 @@ class SeveralViewsCommand : public ScratchScene {
                         {"faces", 5},
                         {"far", 4}}};
     write_file("ceiling.scene.json", scene.dump());
+    write_file("tube.obj", "v -0.5 0 -0.01\nv 0.5 0 -0.01\nv 0.5 0 0.01\nv -0.5 0 0.01\nf 1 2 3 4\n");
+    nlohmann::json neon = scene;
+    neon["lights"] = {{{"name", "neon"},
+                       {"type", "mesh"},
+                       {"file", "tube.obj"},
+                       {"scale", 0.5},
+                       {"translate", {0, 3, 0}},
+                       {"far", 4}}};
+    write_file("neon.scene.json", neon.dump());
     scene["lights"][0].erase("faces");
     scene["lights"][0]["two_sided"] = true;
     write_file("panel.scene.json", scene.dump());
@@ -42,7 +51,8 @@ class SeveralViewsCommand : public ScratchScene {
 TEST_F(SeveralViewsCommand, FromBakeToError) {
   for (const auto& [scene, views, dark] : {std::tuple("bulb.scene.json", 6U, 0.4),
                                            {"ceiling.scene.json", 5U, 1.0},
-                                           {"panel.scene.json", 2U, 1.0}}) {
+                                           {"panel.scene.json", 2U, 1.0},
+                                           {"neon.scene.json", 6U, 1.0}}) {
     ASSERT_EQ(bake(scene, {"--report", "report.json"}).exit_code, 0);
     const Outcome info = run({"info", "map.pdsm", "--json"});
     EXPECT_EQ(nlohmann::json::parse(info.out)["views"].size(), views);

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -102,6 +103,13 @@ struct SphereLight {
   double radius = 0.5;  ///< metres; 0 makes a point
 };
 
+/// Surfaces that emit, each part as much as it is large: outwards where they are closed, else to both sides.
+/// The map has the six faces of a cube as views. The surfaces themselves cast nothing.
+struct MeshLight {
+  /// Metres about the light's position, along the light's axes; with an area. Masks count for nothing.
+  std::shared_ptr<const Mesh> mesh;
+};
+
 /// A light so far away that it is seen under the same angle from everywhere: the sun.
 struct DistantLight {
   double angle = 0.53;  ///< full angular diameter, degrees, 0 .. kMostDistantAngle; 0 makes hard shadows
@@ -119,9 +127,9 @@ struct EmissionImage {
 };
 inline constexpr std::uint32_t kMostEmissionTexels = 8192;
 
-using LightShape = std::variant<RectLight, DiskLight, DistantLight, SphereLight>;
+using LightShape = std::variant<RectLight, DiskLight, DistantLight, SphereLight, MeshLight>;
 
-/// A planar area light, a distant one, or a sphere.
+/// A planar area light, a distant one, a sphere, or a mesh.
 struct Light {
   std::string name;  ///< [A-Za-z0-9_-]+, unique in the scene
   LightShape shape;
@@ -138,8 +146,8 @@ struct Light {
   /// Whether a planar light shines to both sides of its plane.
   bool two_sided = false;
   /// Views of a planar light's map, a side: 1, or all that see what the light shines on: 5 (half a cube), of
-  /// a two-sided one 6 in all (a cube). A sphere light has 6, whatever this says. Cubes leave no choice of
-  /// `window`.
+  /// a two-sided one 6 in all (a cube). Sphere and mesh lights have 6, whatever this says. Cubes leave no
+  /// choice of `window`.
   std::uint32_t faces = 1;
   std::shared_ptr<const EmissionImage> emission;  ///< of rect and disk lights; null: the same everywhere
 };
@@ -182,9 +190,14 @@ struct Scene {
   return std::holds_alternative<SphereLight>(light.shape);
 }
 
+/// Whether the light is a body that shines to all sides: a sphere or a mesh.
+[[nodiscard]] inline bool is_body(const Light& light) {
+  return is_sphere(light) || std::holds_alternative<MeshLight>(light.shape);
+}
+
 /// Views of a light's map.
 [[nodiscard]] inline std::uint32_t view_count(const Light& light) {
-  if (is_sphere(light)) return 6;
+  if (is_body(light)) return 6;
   return light.two_sided && light.faces == 1 ? 2 : light.faces;
 }
 
@@ -194,7 +207,14 @@ struct Scene {
 void place_distant_light(const Scene& scene, Light& light);
 
 /// Half extents of the light's shape along light x and y, metres; of a distant light, the tangent of half
-/// its angle.
+/// its angle; of a mesh, of the box about the light's position that holds it.
 [[nodiscard]] std::array<double, 2> half_extents(const Light& light);
+
+/// The same along light x, y and z.
+[[nodiscard]] std::array<double, 3> half_box(const Light& light);
+
+/// Makes a light of these surfaces, in place of its shape: its position is the middle of their bounds, its
+/// axes stay. Throws as light_frame(). They need a mesh each; whether they have an area is told by a bake.
+void set_emitter(std::span<const Geometry> surfaces, Light& light);
 
 }  // namespace pdsm
