@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "pdsm/format/error.h"
@@ -14,42 +14,11 @@
 #include "scene/glass_image.h"
 #include "scene/gltf_element.h"
 #include "scene/gltf_texture_places.h"
+#include "scene/gltf_textures.h"
 #include "scene/one_line.h"
 
 namespace pdsm {
 namespace {
-
-MaskWrap wrap_of(int mode) {
-  switch (mode) {
-    case TINYGLTF_TEXTURE_WRAP_REPEAT:
-      return MaskWrap::repeat;
-    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
-      return MaskWrap::clamp;
-    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
-      return MaskWrap::mirror;
-    default:
-      throw FormatFault(fmt::format("wrap mode {} is unknown", mode));
-  }
-}
-
-/// A name in a URI, where "%20" stands for a space.
-std::string percent_decoded(const std::string& uri) {
-  std::string name;
-  for (std::size_t n = 0; n < uri.size(); ++n) {
-    unsigned value = 0;
-    const char* const digits = uri.data() + n + 1;
-    const bool coded = uri[n] == '%' && n + 2 < uri.size() &&
-                       std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2;
-    name += coded ? static_cast<char>(value) : uri[n];
-    if (coded) n += 2;
-  }
-  return name;
-}
-
-std::string image_name(const tinygltf::Image& image, int index) {
-  if (!image.uri.empty()) return image.uri;
-  return image.name.empty() ? fmt::format("images[{}]", index) : image.name;
-}
 
 constexpr const char *kBlend = "BLEND", *kMask = "MASK";
 
@@ -84,9 +53,35 @@ double alpha_cutoff(const tinygltf::Material& material) {
   return material.alphaCutoff > 0 ? HUGE_VAL : 0;
 }
 
-bool has_transmission_texture(const tinygltf::Material& material) {
+/// What KHR_materials_transmission's texture is, if it has one.
+std::optional<tinygltf::TextureInfo> transmission_texture(const tinygltf::Material& material) {
   const auto extension = material.extensions.find(kTransmission);
-  return extension != material.extensions.end() && extension->second.Has("transmissionTexture");
+  if (extension == material.extensions.end() || !extension->second.Has("transmissionTexture"))
+    return std::nullopt;
+  const tinygltf::Value& value = extension->second.Get("transmissionTexture");
+  const auto number = [&](const char* key, int otherwise) {
+    if (!value.Has(key)) return otherwise;
+    if (!value.Get(key).IsInt()) throw FormatFault(fmt::format("transmissionTexture: {} is no integer", key));
+    return value.Get(key).GetNumberAsInt();
+  };
+  tinygltf::TextureInfo use;
+  use.index = number("index", -1);
+  use.texCoord = number("texCoord", 0);
+  if (value.Has("extensions")) {
+    const tinygltf::Value& extensions = value.Get("extensions");
+    for (const std::string& key : extensions.Keys()) use.extensions.emplace(key, extensions.Get(key));
+  }
+  return use;
+}
+
+/// What `read` reads of a texture's image; FormatFaults name the image.
+template <typename Read>
+auto naming_image(const GltfTexture& texture, Read&& read) {
+  try {
+    return read();
+  } catch (const FormatFault& fault) {
+    throw FormatFault(fmt::format("image {}: {}", texture.name, fault.what()));
+  }
 }
 
 }  // namespace
@@ -122,10 +117,8 @@ Translucency GltfCutouts::translucency(int index) {
   const std::string name = name_of(static_cast<std::size_t>(index));
   try {
     const glm::dvec4 factor = base_factor(*material);
-    const double transmission = transmission_factor(*material);
-    if (transmission > 0 && has_transmission_texture(*material))
-      parts_.warn(name + ": transmissionTexture is not read: transmissionFactor holds everywhere");
-    return {material->alphaMode == kBlend ? factor.a : 1, transmission * glm::dvec3(factor)};
+    return {material->alphaMode == kBlend ? factor.a : 1,
+            transmission_factor(*material) * glm::dvec3(factor)};
   } catch (const FormatFault& fault) {
     throw Error(Failure::input, name_.string() + ":" + name, one_line(fault.what()));
   }
@@ -140,65 +133,54 @@ const GltfCutouts::Cutout& GltfCutouts::cutout_of(std::size_t material) {
 
 GltfCutouts::Cutout GltfCutouts::read_cutout(const tinygltf::Material& material, const std::string& where) {
   if (!(material.alphaCutoff >= 0)) throw FormatFault("alphaCutoff must be 0 or more");
-  if (material.pbrMetallicRoughness.baseColorTexture.index >= 0) return read_picture_cutout(material, where);
+  const bool has_base = material.pbrMetallicRoughness.baseColorTexture.index >= 0;
+  const bool is_glass = transmission_factor(material) > 0;
+  if (is_glass && (has_base || transmission_texture(material))) return read_glass_cutout(material, where);
+  if (has_base) return read_picture_cutout(material, where);
   if (material.alphaMode != kMask) return {};
   return {make_mask({1, 1, {255}, true}, {}, alpha_cutoff(material)), {}};
 }
 
 GltfCutouts::Cutout GltfCutouts::read_picture_cutout(const tinygltf::Material& material,
                                                      const std::string& where) {
-  const tinygltf::TextureInfo& base = material.pbrMetallicRoughness.baseColorTexture;
-  const tinygltf::Texture& texture = element(model_.textures, base.index, "textures");
-  if (texture.source < 0) throw FormatFault("its texture has no image that can be read");
-  const tinygltf::Image& image = element(model_.images, texture.source, "images");
-  const std::string name = image_name(image, texture.source);
-  const GltfTexturePlaces places(base);
-  std::array<MaskWrap, 2> wrap{};
-  if (texture.sampler >= 0) {
-    const tinygltf::Sampler& sampler = element(model_.samplers, texture.sampler, "samplers");
-    wrap = {wrap_of(sampler.wrapS), wrap_of(sampler.wrapT)};
-  }
-  const bool blends = material.alphaMode == kBlend, has_cutoff = material.alphaMode == kMask;
+  const GltfTexture texture = textures_.read(material.pbrMetallicRoughness.baseColorTexture);
   const double cutoff = alpha_cutoff(material);
-  try {
-    const std::string bytes = image_bytes(image);
-    if (transmission_factor(material) > 0) {
-      const GlassAlpha alpha = blends ? GlassAlpha::blends : has_cutoff ? GlassAlpha::cuts : GlassAlpha::none;
-      return {read_glass(bytes, wrap, alpha, cutoff), places};
-    }
-    AlphaImage alpha = read_alpha(bytes, WithoutAlpha::opaque);
-    if (blends) return {make_blend(std::move(alpha), wrap), places};
+  return naming_image(texture, [&]() -> Cutout {
+    AlphaImage alpha = read_alpha(texture.bytes, WithoutAlpha::opaque);
+    if (material.alphaMode == kBlend) return {make_blend(std::move(alpha), texture.wrap), texture.places};
     if (!alpha.has_alpha)
-      parts_.warn(fmt::format("{}: image {} has no alpha channel: nothing is cut out", where, name));
-    return {make_mask(std::move(alpha), wrap, cutoff), places};
-  } catch (const FormatFault& fault) {
-    throw FormatFault(fmt::format("image {}: {}", name, fault.what()));
-  }
+      parts_.warn(fmt::format("{}: image {} has no alpha channel: nothing is cut out", where, texture.name));
+    return {make_mask(std::move(alpha), texture.wrap, cutoff), texture.places};
+  });
 }
 
-std::string GltfCutouts::image_bytes(const tinygltf::Image& image) {
-  if (image.bufferView >= 0) {
-    const tinygltf::BufferView& view = element(model_.bufferViews, image.bufferView, "bufferViews");
-    const std::vector<unsigned char>& data = element(model_.buffers, view.buffer, "buffers").data;
-    if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-      throw FormatFault("reaches past its buffer");
-    return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
+GltfCutouts::Cutout GltfCutouts::read_glass_cutout(const tinygltf::Material& material,
+                                                   const std::string& where) {
+  const tinygltf::TextureInfo& base_use = material.pbrMetallicRoughness.baseColorTexture;
+  std::optional<GltfTexture> base, share;
+  if (base_use.index >= 0) base = textures_.read(base_use);
+  if (const auto use = transmission_texture(material)) share = textures_.read(*use);
+  if (base && share && !base->lies_as(*share)) {
+    parts_.warn(where +
+                ": transmissionTexture lies otherwise than the base colour's, and is not read: "
+                "transmissionFactor holds everywhere");
+    share.reset();
   }
-  if (!image.image.empty()) return {reinterpret_cast<const char*>(image.image.data()), image.image.size()};
-  if (image.uri.empty()) throw FormatFault("is empty");
-  return files_.read(name_.parent_path() / percent_decoded(image.uri));
+  const auto picture_of = [](const std::optional<GltfTexture>& texture) -> std::optional<Picture> {
+    if (!texture) return std::nullopt;
+    return naming_image(*texture, [&] { return read_picture(texture->bytes, kGlassChannels); });
+  };
+  const GlassAlpha alpha = material.alphaMode == kBlend  ? GlassAlpha::blends
+                           : material.alphaMode == kMask ? GlassAlpha::cuts
+                                                         : GlassAlpha::none;
+  const GltfTexture& either = base ? *base : *share;
+  return {make_glass(picture_of(base), picture_of(share), either.wrap, alpha, alpha_cutoff(material)),
+          either.places};
 }
 
 std::string GltfCutouts::name_of(std::size_t material) const {
   const std::string& name = model_.materials[material].name;
   return name.empty() ? fmt::format("materials[{}]", material) : name;
-}
-
-bool keep_image_bytes(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                      const unsigned char* bytes, int size, void*) {
-  // What lies in a buffer stays there.
-  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
-  return true;
 }
 
 }  // namespace pdsm

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scene/geometry_import.h"
+#include "scene/gltf_textures.h"
 #include "scene/tiny_gltf.h"
 
 namespace pdsm {
@@ -19,7 +20,7 @@ class GltfCutouts {
   /// Borrows all but the name. Warnings go to `parts`.
   GltfCutouts(FileSource& files, std::filesystem::path name, const tinygltf::Model& model,
               PartCollector& parts)
-      : files_(files), name_(std::move(name)), model_(model), parts_(parts) {}
+      : name_(std::move(name)), model_(model), textures_(files, name_, model), parts_(parts) {}
 
   /// Gives the mesh of a primitive the mask of its material and its places there, if anything is cut out or
   /// blends.
@@ -35,19 +36,14 @@ class GltfCutouts {
   [[nodiscard]] const Cutout& cutout_of(std::size_t material);
   [[nodiscard]] Cutout read_cutout(const tinygltf::Material& material, const std::string& where);
   [[nodiscard]] Cutout read_picture_cutout(const tinygltf::Material& material, const std::string& where);
-  [[nodiscard]] std::string image_bytes(const tinygltf::Image& image);
+  [[nodiscard]] Cutout read_glass_cutout(const tinygltf::Material& material, const std::string& where);
   [[nodiscard]] std::string name_of(std::size_t material) const;
 
-  FileSource& files_;
   const std::filesystem::path name_;
   const tinygltf::Model& model_;
+  const GltfTextures textures_;
   PartCollector& parts_;
   std::map<std::size_t, std::shared_ptr<const Cutout>> cutouts_;  // by material
 };
-
-/// Keeps the bytes of an image within the file's own text, to be read when a material asks for it: an image
-/// loader for tinygltf.
-bool keep_image_bytes(tinygltf::Image* image, int index, std::string* fault, std::string* warning, int width,
-                      int height, const unsigned char* bytes, int size, void* unused);
 
 }  // namespace pdsm

@@ -19,6 +19,8 @@ class GltfTexturePlaces {
   [[nodiscard]] std::vector<glm::vec2> read(const tinygltf::Model& model,
                                             const tinygltf::Primitive& primitive, std::size_t count) const;
 
+  friend bool operator==(const GltfTexturePlaces&, const GltfTexturePlaces&) = default;
+
  private:
   int set_;
   glm::dmat2 turn_{1.0};

@@ -154,9 +154,42 @@ TEST_F(GltfCutout, TransmissionThatCannotBe) {
   }
   let_through(material(), 0.5);
   EXPECT_TRUE(scene().warnings.empty());
-  material()["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {{"index", 0}};
+  json& texture = material()["extensions"]["KHR_materials_transmission"]["transmissionTexture"];
+  texture = {{"index", 7}};
+  EXPECT_NE(fault().find("textures[7] does not exist"), std::string::npos);
+  texture = {{"index", "leaf"}};
+  EXPECT_NE(fault().find("transmissionTexture: index is no integer"), std::string::npos);
+  texture = {{"index", 0}, {"texCoord", 1}};
   ASSERT_EQ(scene().warnings.size(), 1U);
-  EXPECT_NE(scene().warnings[0].find("transmissionTexture is not read"), std::string::npos);
+  EXPECT_NE(scene().warnings[0].find("transmissionTexture lies otherwise"), std::string::npos);
+  EXPECT_EQ(scene().geometry[0].transmission, glm::dvec3(0.5));
+}
+
+TEST_F(GltfCutout, TransmissionTexturesMultiply) {
+  // Red is the share, as it is.
+  folder_.write("share.png", png(4, 1, 3, {255, 0, 0, 100, 9, 9, 51, 0, 7, 0, 255, 255}));
+  gltf_["images"].push_back({{"uri", "share.png"}});
+  gltf_["textures"].push_back({{"source", 1}});
+  material()["alphaMode"] = "OPAQUE";
+  material()["pbrMetallicRoughness"].erase("baseColorTexture");
+  let_through(material(), 0.8);
+  json& texture = material()["extensions"]["KHR_materials_transmission"]["transmissionTexture"];
+  texture = {{"index", 1}};
+  const Mesh alone = import();
+  ASSERT_NE(alone.mask, nullptr);
+  EXPECT_EQ(alone.mask->width, 4U);
+  EXPECT_EQ(alone.mask->alpha, std::vector<std::uint8_t>(4, 255));
+  EXPECT_EQ(alone.mask->transmission,
+            (std::vector<glm::u8vec3>{glm::u8vec3(255), glm::u8vec3(100), glm::u8vec3(51), glm::u8vec3(0)}));
+  EXPECT_EQ(alone.mask_places.size(), 3U);
+  // Columns of a base that is half as wide are mixed between their centres, as light.
+  folder_.write("base.png", png(2, 1, 3, {255, 255, 0, 0, 255, 0}));
+  gltf_["images"].push_back({{"uri", "base.png"}});
+  gltf_["textures"].push_back({{"source", 2}});
+  material()["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 2}};
+  EXPECT_EQ(import().mask->transmission,
+            (std::vector<glm::u8vec3>{{255, 255, 0}, {75, 100, 0}, {13, 51, 0}, {0, 0, 0}}));
+  EXPECT_TRUE(scene().warnings.empty());
 }
 
 TEST_F(GltfCutout, CutoffAndBaseColourFactor) {
