@@ -165,6 +165,11 @@ TEST_F(GltfSceneTest, PunctualLightsHaveTheirSizeInExtras) {
   EXPECT_EQ(light().faces, 5U);
 }
 
+TEST_F(GltfSceneTest, MeshLightsAreOfSceneFiles) {
+  own() = {{"type", "mesh"}, {"file", "tube.obj"}};
+  EXPECT_EQ(fault(), "level.gltf:nodes[1].extras.pdsm_light.type: mesh is for lights of scene files");
+}
+
 TEST_F(GltfSceneTest, WhatHasNoSizeIsLeftOutAndTold) {
   json& punctual = extension("KHR_lights_punctual");
   punctual = {{"type", "directional"}};
