@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "light/mesh_samples.h"
 #include "pdsm/format/error.h"
 
 namespace pdsm {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "pdsm/bake/scene.h"
+#include "pdsm/format/error.h"
 
 namespace pdsm {
 
@@ -30,6 +32,25 @@ void set_emitter(std::span<const Geometry> surfaces, Light& light) {
   }
   mesh->closed = is_closed(*mesh);
   light.shape = MeshLight{std::move(mesh)};
+}
+
+void check_mesh_light(const Light& light) {
+  const auto* shape = std::get_if<MeshLight>(&light.shape);
+  if (shape == nullptr) return;
+  const auto refuse = [&](const char* reason) { throw Error(Failure::input, light.name + ".mesh", reason); };
+  if (!shape->mesh) refuse("is missing");
+  const Mesh& mesh = *shape->mesh;
+  const auto is_finite = [](const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); };
+  if (!std::ranges::all_of(mesh.positions, is_finite)) refuse("must have finite positions");
+  const std::size_t count = mesh.positions.size();
+  const auto is_index = [count](const glm::uvec3& t) { return std::max({t.x, t.y, t.z}) < count; };
+  if (!std::ranges::all_of(mesh.triangles, is_index)) refuse("must have indices of its positions");
+  double area = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a(mesh.positions[t.x]);
+    area += glm::length(glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a));
+  }
+  if (!(area > 0)) refuse("has no area");
 }
 
 }  // namespace pdsm

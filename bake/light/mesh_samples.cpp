@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hilbert curve: Skilling, Programming the Hilbert Curve, 2004.
 // Additive recurrences: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
 #include "light/mesh_samples.h"
 
@@ -7,9 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 
+#include "light/hilbert_curve.h"
 #include "pdsm/format/error.h"
 
 namespace pdsm {
@@ -23,8 +26,6 @@ constexpr double kInverseRatio = 1 / 1.13472413840151949260;
 constexpr std::uint64_t kFirstDimension = 10;
 /// Share of the mesh's size that rays start off the surface.
 constexpr float kOwnSurface = 1e-5F;
-/// Bits an axis of a place on the Hilbert curve.
-constexpr std::uint32_t kCurveBits = 16;
 
 struct Triangle {
   std::array<glm::dvec3, 3> corners;
@@ -148,56 +149,6 @@ class CandidateMaker {
   double inwards_ = 1;  ///< times the normal of the winding
 };
 
-/// Place on the Hilbert curve of a cube of 2^kCurveBits cells an axis.
-std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
-  constexpr std::uint32_t kTop = 1U << (kCurveBits - 1);
-  for (std::uint32_t q = kTop; q > 1; q >>= 1U) {
-    const std::uint32_t below = q - 1;
-    for (std::uint32_t& axis : x) {
-      if ((axis & q) != 0) {
-        x[0] ^= below;
-      } else {
-        const std::uint32_t t = (x[0] ^ axis) & below;
-        x[0] ^= t;
-        axis ^= t;
-      }
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = kTop; q > 1; q >>= 1U)
-    if ((x[2] & q) != 0) t ^= q - 1;
-  std::uint64_t place = 0;
-  for (std::uint32_t bit = kCurveBits; bit-- > 0;)
-    for (const std::uint32_t axis : x) place = place << 1U | (((axis ^ t) >> bit) & 1U);
-  return place;
-}
-
-/// Puts points in the order of the curve through their bounding cube.
-void sort_along_curve(std::vector<glm::dvec3>& points) {
-  glm::dvec3 low(points.front()), high(points.front());
-  for (const glm::dvec3& p : points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::dvec3 size = high - low;
-  const double largest = std::max({size.x, size.y, size.z, std::numeric_limits<double>::min()});
-  constexpr double kMost = (1U << kCurveBits) - 1;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-  for (std::uint32_t n = 0; n < points.size(); ++n) {
-    const glm::dvec3 cell = glm::min(std::floor(kMost) * (points[n] - low) / largest, glm::dvec3(kMost));
-    order.emplace_back(place_on_curve({static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y),
-                                       static_cast<std::uint32_t>(cell.z)}),
-                       n);
-  }
-  std::ranges::sort(order);
-  std::vector<glm::dvec3> sorted;
-  sorted.reserve(points.size());
-  for (const auto& [place, n] : order) sorted.push_back(points[n]);
-  points = std::move(sorted);
-}
-
 }  // namespace
 
 std::vector<std::array<double, 3>> mesh_samples(const Mesh& mesh, const SampleSet& set) {
@@ -205,7 +156,7 @@ std::vector<std::array<double, 3>> mesh_samples(const Mesh& mesh, const SampleSe
   const CandidateMaker maker(mesh, all, set);
   std::vector<glm::dvec3> candidates(all);
   for (std::uint32_t i = 0; i < all; ++i) candidates[i] = maker.make(i);
-  sort_along_curve(candidates);
+  sort_along_hilbert_curve(candidates);
   std::vector<std::array<double, 3>> samples;
   for (std::uint32_t i = 0; i < set.count; ++i) {
     const double within =
@@ -214,22 +165,6 @@ std::vector<std::array<double, 3>> mesh_samples(const Mesh& mesh, const SampleSe
     samples.push_back({p.x, p.y, p.z});
   }
   return samples;
-}
-
-void check_mesh_light(const Light& light) {
-  const auto* shape = std::get_if<MeshLight>(&light.shape);
-  if (shape == nullptr) return;
-  const auto refuse = [&](const char* reason) { throw Error(Failure::input, light.name + ".mesh", reason); };
-  if (!shape->mesh) refuse("is missing");
-  const Mesh& mesh = *shape->mesh;
-  const auto is_finite = [](const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); };
-  if (!std::ranges::all_of(mesh.positions, is_finite)) refuse("must have finite positions");
-  const std::size_t count = mesh.positions.size();
-  const auto is_index = [count](const glm::uvec3& t) { return std::max({t.x, t.y, t.z}) < count; };
-  if (!std::ranges::all_of(mesh.triangles, is_index)) refuse("must have indices of its positions");
-  double area = 0;
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) area += glm::length(triangle_of(mesh, n).normal());
-  if (!(area > 0)) refuse("has no area");
 }
 
 }  // namespace pdsm

@@ -66,9 +66,9 @@ constexpr PointSet kSets[] = {PointSet::lattice, PointSet::jittered};
 TEST(MeshSamples, OfASheetAreUniformOnIt) {
   const Mesh sheet = plate_mesh(Plate{-1, -0.5, 1, 0.5, 0.25});
   constexpr std::uint32_t kCount = 1024;
-  // A run of 1/n of the plane's Hilbert curve is no wider than sqrt(6 / n), so that a line meets no more
-  // runs than lie within as much of it to both sides; and the sheet is half of the curve's square.
-  const double slack = sampling_tolerance(2 * std::sqrt(6.0 * 2 * kCount), kCount);
+  // With n strata a square, the curve goes through squares of an area from 1/n to 4/n one after the other. A
+  // line meets sqrt(n) of them, and each has points of 6 strata at most; the sheet is half of a square.
+  const double slack = sampling_tolerance(6 * std::sqrt(2.0 * kCount), kCount);
   for (const PointSet points : kSets) {
     const Samples samples = mesh_samples(sheet, {kCount, points, 5});
     ASSERT_EQ(samples.size(), kCount);

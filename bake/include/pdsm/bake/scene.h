@@ -155,6 +155,10 @@ struct Light {
 /// Throws Error (input) "name.emission: reason" for what is not as described above. Baking calls it.
 void check_emission(const Light& light);
 
+/// Throws Error (input) "name.mesh: reason" for a mesh light without a mesh, with positions that are not
+/// finite or indices beyond them, or without area; other lights pass. Baking calls it. O(triangles).
+void check_mesh_light(const Light& light);
+
 struct Scene {
   std::string source;  ///< path of the scene file, for messages; may be empty
   std::vector<Geometry> geometry;
