@@ -237,8 +237,9 @@ TEST_F(BakeCommand, FailureKeepsTheOldFile) {
 TEST_F(BakeCommand, StrangePathsWork) {
   fs::create_directory(path("mit Leerzeichen"));
   for (const std::string name : {"with space.pdsm", "schön-影.pdsm", "mit Leerzeichen/a b.pdsm"}) {
-    EXPECT_EQ(bake({"one.scene.json", "--quiet", "-o", name}).exit_code, 0) << name;
-    EXPECT_EQ(run({"check", name}).exit_code, 0) << name;
+    SCOPED_TRACE(name);
+    expect_exit(bake({"one.scene.json", "--quiet", "-o", name}), 0);
+    expect_exit(run({"check", name}), 0);
   }
   EXPECT_EQ(bake({"one.scene.json", "--quiet", "-o", "-dash.pdsm"}).exit_code, 0);
   EXPECT_EQ(run({"check", "--", "-dash.pdsm"}).exit_code, 0);
