@@ -11,11 +11,12 @@
 #include "scene/scene_channels.h"
 #include "support/baked_functions.h"
 #include "support/exact_truth.h"
+#include "support/half_plane_shadow.h"
 
 namespace pdsm::test {
 namespace {
 
-constexpr double kOccluder = 3, kFar = 8;
+constexpr double kOccluder = 3;
 
 Light disk_with(EmissionImage image) {
   Light light = rect_light(1, 1);
@@ -104,39 +105,13 @@ TEST(DiskEmission, EndsOfTheSquareAreWhereItEmits) {
 }
 
 TEST(DiskEmission, TwoHalvesBehindAnEdge) {
-  constexpr std::uint32_t kSamples = 256;
-  constexpr double kEdge = 0.3, kLeft = 1, kRight = 3;
-  Light light = disk_with({2, 1, {kLeft, kRight}});
-  set_view(light, 0.5, 0.25, 2, kFar);
-  Scene scene;
-  add(scene, Plate{kEdge, -kWide, kWide, kWide, kOccluder});
-  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
-  const auto attenuation = [](double edge, double slope, double depth) {
-    const double beyond = disk_half_plane(1, back_project(edge, kOccluder, slope, depth));
-    return 2 * (kRight * std::min(beyond, 0.5) + kLeft * std::max(beyond - 0.5, 0.0)) / (kLeft + kRight);
-  };
-  for (const PointSet points : {PointSet::lattice, PointSet::jittered}) {
-    BakeOptions options = small_options(33, 5, kSamples);
-    options.map_width = 4 * 33;
-    options.map_height = 4 * 5;
-    options.points = points;
-    const BakedFunctions baked(scene, light, options);
-    const double moved = texel_reach(options.walk) * baked.map_pitch_x() * kOccluder;
-    const double delta = baked.report().depth_tolerance;
-    // In the square that is warped the edge is a curve that turns back at most once a half.
-    const double slack = sampling_tolerance(outline_strata(kSamples), kSamples) + baked.report().epsilon;
-    for (std::uint32_t i = 0; i < 33; ++i) {
-      for (const double z : {4.0, 5.0, 6.5, 7.9}) {
-        double low = 1, high = 0;
-        for (const double depth : {z - delta, z + delta}) {
-          low = std::min(low, attenuation(kEdge + moved, baked.slope_x(i), depth));
-          high = std::max(high, attenuation(kEdge - moved, baked.slope_x(i), depth));
-        }
-        EXPECT_GE(baked.value(i, 2, z), low - slack) << i << " " << z;
-        EXPECT_LE(baked.value(i, 2, z), high + slack) << i << " " << z;
-      }
-    }
-  }
+  constexpr double kLeft = 1, kRight = 3;
+  // In the square that is warped the edge is a curve that turns back at most once a half.
+  expect_half_plane_shadow(
+      disk_with({2, 1, {kLeft, kRight}}), outline_strata(256), [](double edge, double slope, double depth) {
+        const double beyond = disk_half_plane(1, back_project(edge, kOccluder, slope, depth));
+        return 2 * (kRight * std::min(beyond, 0.5) + kLeft * std::max(beyond - 0.5, 0.0)) / (kLeft + kRight);
+      });
 }
 
 TEST(DiskEmission, WhatLiesBesideTheDiskHasNoColour) {

@@ -10,6 +10,7 @@
 #include "support/baked_functions.h"
 #include "support/compare.h"
 #include "support/exact_truth.h"
+#include "support/half_plane_shadow.h"
 
 namespace pdsm::test {
 namespace {
@@ -60,39 +61,12 @@ TEST(EmissionWarp, NeverEndsInTheDark) {
 }
 
 TEST(Emission, TwoHalvesBehindAnEdge) {
-  const auto attenuation = [](double beyond, double slope, double depth) {
-    return two_halves(back_project(beyond, kOccluder, slope, depth), 1, 3);
-  };
-  constexpr std::uint32_t kSamples = 256;
-  const double edge = 0.3;
   Light light = rect_light(2, 1);
   light.emission = picture(2, 1, {1, 3});
-  set_view(light, 0.5, 0.25, 2, kFar);
-  Scene scene;
-  add(scene, Plate{edge, -kWide, kWide, kWide, kOccluder});
-  add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
-  for (const PointSet points : {PointSet::lattice, PointSet::jittered}) {
-    BakeOptions options = small_options(33, 5, kSamples);
-    options.map_width = 4 * 33;
-    options.map_height = 4 * 5;
-    options.points = points;
-    const BakedFunctions baked(scene, light, options);
-    const double moved = texel_reach(options.walk) * baked.map_pitch_x() * kOccluder;
-    const double delta = baked.report().depth_tolerance;
-    // The edge is one in the square that is warped, too.
-    const double slack = sampling_tolerance(edge_strata(kSamples), kSamples) + baked.report().epsilon;
-    for (std::uint32_t i = 0; i < 33; ++i) {
-      for (const double z : {4.0, 5.0, 6.5, 7.9}) {
-        double low = 1, high = 0;
-        for (const double depth : {z - delta, z + delta}) {
-          low = std::min(low, attenuation(edge + moved, baked.slope_x(i), depth));
-          high = std::max(high, attenuation(edge - moved, baked.slope_x(i), depth));
-        }
-        EXPECT_GE(baked.value(i, 2, z), low - slack) << i << " " << z;
-        EXPECT_LE(baked.value(i, 2, z), high + slack) << i << " " << z;
-      }
-    }
-  }
+  // The edge is one in the square that is warped, too.
+  expect_half_plane_shadow(light, edge_strata(256), [](double edge, double slope, double depth) {
+    return two_halves(back_project(edge, kOccluder, slope, depth), 1, 3);
+  });
 }
 
 TEST(Emission, APictureOfOneTexelChangesNoFunction) {
