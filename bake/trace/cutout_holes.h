@@ -24,7 +24,8 @@ struct CutoutRays {
   RTCIntersectContext context;  // first, so that Embree's pointer to it is one to the whole
   std::uint64_t sample_key = 0;
   std::array<double, 2>
-      step{};  ///< change of a ray's direction per texel; of its origin where all are parallel
+      step{};              ///< change of a ray's direction per texel; of its origin where all are parallel
+  double step_across = 0;  ///< of a step along both axes
   bool parallel = false;
   std::array<std::int32_t, 2> lower_texel{};
 };

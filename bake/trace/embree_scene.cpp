@@ -38,14 +38,15 @@ unsigned mask_of(const LightSpaceMesh& mesh) {
   return caster | (mesh.receives ? kReceiverMask : 0U);
 }
 
-RTCGeometry make_geometry(RTCDevice device, const LightSpaceMesh& mesh) {
+RTCGeometry make_geometry(RTCDevice device, TracedMesh& traced) {
+  const LightSpaceMesh& mesh = traced.mesh;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(), 0,
                              sizeof(glm::vec3), mesh.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                              sizeof(glm::uvec3), mesh.triangles.size());
   rtcSetGeometryMask(geometry, mask_of(mesh));
-  rtcSetGeometryUserData(geometry, const_cast<LightSpaceMesh*>(&mesh));
+  rtcSetGeometryUserData(geometry, &traced);
   if (mesh.casts && mesh.has_holes()) rtcSetGeometryIntersectFilterFunction(geometry, pass_through_holes);
   rtcCommitGeometry(geometry);
   return geometry;
@@ -85,7 +86,7 @@ std::string choose_isa(const std::string& wanted) {
 }
 
 EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, unsigned threads)
-    : geometry_(scene) {
+    : geometry_(scene), traced_(traced_meshes(scene)) {
   const std::string config = "isa=" + isa + ",threads=" + std::to_string(threads);
   device_ = rtcNewDevice(config.c_str());
   if (device_ == nullptr) throw Error(Failure::resource, "embree", "no device for " + config);
@@ -96,7 +97,7 @@ EmbreeScene::EmbreeScene(const LightSpaceScene& scene, const std::string& isa, u
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const LightSpaceMesh& mesh = scene.meshes[i];
     if (mesh.triangles.empty()) continue;
-    RTCGeometry geometry = make_geometry(device_, mesh);
+    RTCGeometry geometry = make_geometry(device_, traced_[i]);
     rtcAttachGeometryByID(scene_, geometry, static_cast<unsigned>(i));
     if (mesh.is_cutout_caster()) rtcAttachGeometryByID(cutouts_, geometry, static_cast<unsigned>(i));
     if (mesh.is_translucent_caster()) rtcAttachGeometryByID(translucent_, geometry, static_cast<unsigned>(i));

@@ -4,8 +4,10 @@
 #include <embree3/rtcore.h>
 
 #include <string>
+#include <vector>
 
 #include "trace/light_space.h"
+#include "trace/masked_triangles.h"
 
 namespace pdsm {
 
@@ -37,6 +39,7 @@ class EmbreeScene {
 
  private:
   const LightSpaceScene& geometry_;
+  std::vector<TracedMesh> traced_;  ///< in the order of its meshes; Embree holds pointers to them
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr, cutouts_ = nullptr, translucent_ = nullptr;
 };

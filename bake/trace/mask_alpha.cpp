@@ -27,21 +27,19 @@ std::size_t shown_texel(std::int64_t texel, std::int64_t count, MaskWrap wrap) {
   return static_cast<std::size_t>(std::clamp<std::int64_t>(texel, 0, count - 1));
 }
 
-/// Where `at` lies in one copy of the mask, from 0 to 1; whole copies are taken off first, as places may be
-/// larger than any integer.
-double within_copy(double at, MaskWrap wrap) {
-  if (wrap == MaskWrap::clamp) return std::clamp(at, 0.0, 1.0);
-  if (wrap == MaskWrap::repeat) return at - std::floor(at);
-  return std::abs(at - 2 * std::floor(at / 2 + 0.5));
-}
-
 TexelPair texels_at(double at, std::uint32_t count, MaskWrap wrap) {
-  const double texel = within_copy(at, wrap) * count - 0.5;
+  const double texel = place_in_copy(at, wrap) * count - 0.5;
   const std::int64_t n = floor_of(texel);
   return {shown_texel(n, count, wrap), shown_texel(n + 1, count, wrap), texel - static_cast<double>(n)};
 }
 
 }  // namespace
+
+double place_in_copy(double at, MaskWrap wrap) {
+  if (wrap == MaskWrap::clamp) return std::clamp(at, 0.0, 1.0);
+  if (wrap == MaskWrap::repeat) return at - std::floor(at);
+  return std::abs(at - 2 * std::floor(at / 2 + 0.5));
+}
 
 double alpha_at(const CutoutMask& mask, const glm::dvec2& place) {
   const TexelPair x = texels_at(place.x, mask.width, mask.wrap[0]),

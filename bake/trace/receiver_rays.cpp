@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "trace/masked_triangles.h"
+
 namespace pdsm {
 namespace {
 
@@ -12,8 +14,7 @@ constexpr double kBehindFar = 1e-3;
 /// A light-facing surface's outward normal points along a ray to the light, and against one from it.
 template <Heading heading>
 void keep_light_facing(const RTCFilterFunctionNArguments* args) {
-  const auto* mesh = static_cast<const LightSpaceMesh*>(args->geometryUserPtr);
-  if (!mesh->closed) return;
+  if (!static_cast<const TracedMesh*>(args->geometryUserPtr)->mesh.closed) return;
   const unsigned n = args->N;
   for (unsigned lane = 0; lane < n; ++lane) {
     if (args->valid[lane] != -1) continue;

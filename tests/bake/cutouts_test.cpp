@@ -191,6 +191,27 @@ INSTANTIATE_TEST_SUITE_P(AtTwoResolutions, SmallMaskTexels,
                          testing::Values(Minified{16, 1024}, Minified{64, 64}),
                          [](const auto& c) { return "Edge" + std::to_string(c.param.edge); });
 
+/// Stripes of which a period is a map texel: each texel sees half of it solid, at a point of its own. Over n
+/// texels the variance of what N samples give, each blocked with chance 1/2, is 1/(4 N), but for its own
+/// standard deviation of sqrt(2 / n) of that. Were whole texels decided by what lies at their centres, all
+/// would be alike.
+TEST(Cutouts, TexelsThatSeeTheSameChooseForThemselves) {
+  constexpr std::uint32_t kEdge = 64, kSamples = 64;
+  const double x = 3, periods = 2 * x * kEdge / kPlateDepth;
+  Scene scene;
+  add(scene,
+      cut_plate({-x, -x, x, x, kPlateDepth},
+                make_mask(64, 64, 0.5F, [](std::uint32_t i, std::uint32_t) { return i < 32; }),
+                {0, 0, periods, periods}),
+      Roles::caster);
+  const BakedFunctions baked(scene, square_light(), exact_options(kEdge, kSamples));
+  double squares = 0;
+  for (std::uint32_t j = 0; j < kEdge; ++j)
+    for (std::uint32_t i = 0; i < kEdge; ++i) squares += std::pow(baked.value(i, j, 6) - 0.5, 2);
+  constexpr double kTexels = kEdge * kEdge;
+  EXPECT_NEAR(squares / kTexels * 4 * kSamples, 1, 6 * std::sqrt(2 / kTexels));
+}
+
 /// Both sides of a leaf, each a surface of its own, have their holes at the same places: two with holes of
 /// their own would block 1 - 1/8^2. Hits are floats: weights are off by 2^-23, places by so much of 4,800
 /// texels, in either bake. Of four texels two borders are as near as both together to one point in 876.
