@@ -11,13 +11,21 @@
 #include "scene/scene_channels.h"
 
 namespace pdsm {
+namespace {
+
+std::string first_option(const Goals& goals) {
+  return goals.target_error ? "--target-error" : goals.time_budget ? "--time-budget" : "--size-budget";
+}
+
+}  // namespace
 
 ChosenBake bake_to_goals(const BakeCommand& command, const Scene& scene, const Light& light,
                          const BakeOptions& options, std::optional<double> time_budget) {
+  const std::string option = first_option(command.goals);
   if (view_count(light) > 1)
-    throw Error(Failure::usage, "--target-error", "goals are not for lights of several faces: " + light.name);
+    throw Error(Failure::usage, option, "goals are not for lights of several faces: " + light.name);
   if (may_be_coloured(scene, light))
-    throw Error(Failure::usage, "--target-error", "goals are not for coloured shadows: " + light.name);
+    throw Error(Failure::usage, option, "goals are not for coloured shadows: " + light.name);
   std::optional<ProgressLine> line;
   const PolledInterrupts interrupts;
   TrialCallbacks callbacks;

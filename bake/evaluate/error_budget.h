@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "evaluate/error_part.h"
 #include "evaluate/probed_truth.h"
 #include "evaluate/verify.h"
 #include "pdsm/bake/bake.h"
@@ -9,14 +10,6 @@
 
 /// What a map's error is made of (docs/maths.md, "Error budget").
 namespace pdsm {
-
-/// One cause of error: what attenuations change by when it is let in. Over the same points and with the same
-/// divisor as VerifyResult's.
-struct ErrorPart {
-  double rms = 0;       ///< sqrt(sum change^2 / shadowed_points)
-  double mean_abs = 0;  ///< sum |change| / shadowed_points
-  double bias = 0;      ///< sum change / shadowed_points; > 0: too dark
-};
 
 /// The parts of a map's error. At each point they add up to look-up minus truth (telescoping): each is the
 /// difference of attenuations of which the later one lets one more cause in.

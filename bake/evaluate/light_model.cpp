@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/light_model.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
 
@@ -24,14 +21,7 @@ ErrorPart measure_light_model(const Scene& scene, const Light& light, const Prob
   for (std::size_t n = 0; n < changes.size(); ++n)
     changes[n] =
         brightness(rays.model_rgb(truth.points[n], options.samples, hash_bits(seed, n))) - truth.value(n);
-  ErrorPart part;
-  for (const double change : changes) {
-    part.rms += change * change;
-    part.mean_abs += std::abs(change);
-    part.bias += change;
-  }
-  const auto shadowed = static_cast<double>(std::max<std::size_t>(1, truth.shadowed_points()));
-  return {std::sqrt(part.rms / shadowed), part.mean_abs / shadowed, part.bias / shadowed};
+  return sum_up(changes, truth);
 }
 
 }  // namespace pdsm

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "evaluate/error_budget.h"
+#include "evaluate/error_part.h"
+#include "evaluate/verify.h"
+#include "pdsm/bake/scene.h"
 
 namespace pdsm {
 

@@ -81,7 +81,8 @@ TEST_F(ChannelsCommand, NothingIsBakedAgainAndChangesAreTold) {
 TEST_F(ChannelsCommand, GoalsAndSweepsAreRefused) {
   const Outcome goal = run({"bake", "ruby.scene.json", "-o", "map.pdsm", "--target-error", "0.05"});
   expect_exit(goal, 2);
-  EXPECT_NE(goal.err.find("goals are not for coloured shadows"), std::string::npos) << goal.err;
+  EXPECT_NE(goal.err.find("--target-error: goals are not for coloured shadows"), std::string::npos)
+      << goal.err;
   const Outcome sweep = run({"tradeoff", "ruby.scene.json", "-o", "sweep"});
   expect_exit(sweep, 2);
   EXPECT_NE(sweep.err.find("coloured shadows can't be swept"), std::string::npos) << sweep.err;

@@ -77,8 +77,8 @@ TEST_F(SeveralViewsCommand, WhatIsForOneViewIsRefusedByName) {
     expect_exit(outcome, 2);
     EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
   };
-  expect_refused(bake("ceiling.scene.json", {"--target-error", "0.05"}),
-                 "goals are not for lights of several");
+  expect_refused(bake("ceiling.scene.json", {"--size-budget", "1M"}),
+                 "--size-budget: goals are not for lights of several");
   expect_refused(run({"verify", "map.pdsm", "ceiling.scene.json", "--heat-map", "a.png"}),
                  "only maps of one view");
   expect_refused(run({"tradeoff", "ceiling.scene.json", "-o", "sweep"}), "lights of several faces");
