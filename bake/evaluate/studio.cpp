@@ -24,6 +24,21 @@ double cosine_at_light(const StudioLight& light, const glm::dvec3& to_light, dou
   return light.two_sided ? std::abs(ahead) : ahead;
 }
 
+/// What arrives where the light is as bright as its colour.
+float reference_irradiance(const StudioLight& light, const Focus& focus) {
+  const glm::dvec3& centre = light.points[light.points.size() / 2];
+  const glm::dvec3 ahead = light.direction == glm::dvec3(0) ? glm::dvec3(0, -1, 0) : light.direction;
+  const auto arrives = [&light](const glm::dvec3& position, const glm::dvec3& normal) {
+    return irradiance(light, position, glm::vec3(normal));
+  };
+  if (light.distant) return arrives(focus.centre, centre);
+  const double distance = glm::distance(centre, focus.centre);
+  const glm::dvec3 towards = distance > 0 ? (focus.centre - centre) / distance : ahead;
+  const float at_focus =
+      arrives(centre + std::max(distance, kStudioLeastDistance * focus.radius) * towards, -towards);
+  return at_focus > 0 ? at_focus : arrives(centre + 2 * focus.radius * ahead, -ahead);
+}
+
 }  // namespace
 
 glm::vec3 studio_colour(std::size_t index, std::size_t count) {
@@ -46,13 +61,7 @@ StudioLight make_studio_light(const Light& light, const Focus& focus, const glm:
       studio.points[n++] = studio.distant ? glm::normalize(origin - p) : p;
     }
   }
-  const glm::dvec3& centre = studio.points[studio.points.size() / 2];
-  const glm::dvec3 to_centre = studio.distant ? centre : centre - focus.centre;
-  float reference = irradiance(studio, focus.centre, glm::vec3(glm::normalize(to_centre)));
-  if (!(reference > 0)) {
-    const glm::dvec3 ahead = is_body(light) ? glm::dvec3(0, -1, 0) : studio.direction;
-    reference = irradiance(studio, centre + 2 * focus.radius * ahead, glm::vec3(-ahead));
-  }
+  const float reference = reference_irradiance(studio, focus);
   studio.colour = colour / reference;
   return studio;
 }

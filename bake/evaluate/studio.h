@@ -17,6 +17,8 @@ inline constexpr glm::vec3 kStudioHorizon{0.185F, 0.215F, 0.26F}, kStudioZenith{
 /// direction.y at which the background is all zenith; it begins at 0.
 inline constexpr double kStudioZenithHeight = 0.7;
 inline constexpr float kStudioKeyStrength = 2.3F;
+/// In radii of the focus: what lamps in the middle of rooms shine on is about as far away.
+inline constexpr double kStudioLeastDistance = 0.6;
 /// From where to where surfaces fade into the background, in radii of the focus.
 inline constexpr double kStudioFadeBegin = 2.0, kStudioFadeEnd = 6.0;
 
@@ -34,8 +36,9 @@ struct StudioLight {
 /// all shine on one surface, so that together they are brighter than one.
 [[nodiscard]] glm::vec3 studio_colour(std::size_t index, std::size_t count);
 
-/// The light as bright as makes a white surface at the focus, turned to it, `colour`; or one two radii in
-/// front of it when it does not shine on the focus.
+/// The light as bright as makes a white surface at the focus, turned to it, `colour`. Of a light nearer than
+/// kStudioLeastDistance to the focus it is one at that distance, in the same direction, and of one that does
+/// not shine there one two radii in front of it.
 [[nodiscard]] StudioLight make_studio_light(const Light& light, const Focus& focus, const glm::vec3& colour);
 
 /// What arrives from the light's points on a surface, both cosines and 1 / distance^2 (metres; 1 for a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The truth under a distant light, in closed form: what shadow rays, verify's parts and pictures make of it.
+// The truth under a distant light, in closed form: what shadow rays and verify's parts make of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "evaluate/point_parts.h"
-#include "evaluate/studio.h"
 #include "evaluate/verify.h"
 #include "plates.h"
 #include "truth/light_points.h"
@@ -265,19 +264,6 @@ TEST(DistantVerify, FindsTheErrorThatTheTruthHas) {
   EXPECT_GT(result.shadowed_points, 60U);
   EXPECT_GT(result.mean_abs_error, 0);
   EXPECT_LT(result.mean_abs_error, 0.05);
-}
-
-TEST(DistantStudio, LightsEverySurfaceByItsAngleAlone) {
-  Light light = light_at_origin(DistantLight{0.53});
-  light.direction = {0, -1, 0};
-  light.up = {0, 0, 1};
-  const Focus focus{{1, 2, 3}, 5};
-  const StudioLight studio = make_studio_light(light, focus, glm::vec3(2));
-  for (const glm::dvec3& p : {glm::dvec3(0), glm::dvec3(1e4, -1e5, 7)}) {
-    EXPECT_NEAR(studio.colour.r * irradiance(studio, p, {0, 1, 0}), 2, 1e-5);
-    EXPECT_NEAR(studio.colour.r * irradiance(studio, p, {0.8F, 0.6F, 0}), 1.2, 1e-5);
-    EXPECT_EQ(irradiance(studio, p, {0, -1, 0}), 0);
-  }
 }
 
 }  // namespace
