@@ -43,6 +43,9 @@ class EventBudget {
     const std::uint64_t used = used_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
     if (used > limit_) exceeded_.store(true, std::memory_order_relaxed);
   }
+  /// Counts it as exceeded from now on.
+  void give_up() { exceeded_.store(true, std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t limit() const { return limit_; }
   [[nodiscard]] bool exceeded() const { return exceeded_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t used() const { return used_.load(std::memory_order_relaxed); }
 
@@ -56,7 +59,7 @@ class EventBudget {
 /// nothing. Once the budget is exceeded, events are dropped: the tile is going to be thrown away.
 class EventLog {
  public:
-  static constexpr std::size_t kPageEvents = 1024;
+  static constexpr std::size_t kPageEvents = 1024, kPageBytes = kPageEvents * sizeof(PackedEvent);
 
   explicit EventLog(EventBudget* budget) : budget_(budget) {}
 
@@ -99,7 +102,7 @@ class EventLog {
     }
     if (!pages_.empty()) pages_.back().count = fill_;
     pages_.push_back({std::make_unique_for_overwrite<PackedEvent[]>(kPageEvents), 0});
-    budget_->take(kPageEvents * sizeof(PackedEvent));
+    budget_->take(kPageBytes);
     fill_ = 0;
   }
 

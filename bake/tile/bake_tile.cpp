@@ -197,6 +197,11 @@ void process_sample(const TileInput& input, std::uint32_t sample, const TexelRec
 /// Share of a tile's work that its walks are, for progress.
 constexpr double kWalkShare = 0.85;
 
+/// From so many samples, and such a share of all, on it is foreseen whether events will take more room than
+/// there is. Samples have about as many each; a tile that would have had room all the same is halved for
+/// little.
+constexpr double kLeastSeen = 8, kLeastSeenShare = 1.0 / 32;
+
 class TileJob {
  public:
   TileJob(const TileInput& input, const TexelRect& tile, std::uint32_t strips, std::uint64_t event_limit,
@@ -219,15 +224,15 @@ class TileJob {
     prepare();
     statistics.prepare += omp_get_wtime() - start;
     if (!input_.nothing_casts) walk();
-    if (cancelled_) return TileOutcome::cancelled;
-    if (budget_.exceeded()) return TileOutcome::events_exceeded;
-    fit(statistics);
     for (const WalkThread& walker : walkers_) {
       statistics.add(walker.statistics);
       statistics.slope_bias_sum += walker.slope_bias.sum;
       statistics.slope_bias_max =
           std::max(statistics.slope_bias_max, static_cast<double>(walker.slope_bias.max));
     }
+    if (cancelled_) return TileOutcome::cancelled;
+    if (budget_.exceeded()) return TileOutcome::events_exceeded;
+    fit(statistics);
     statistics.event_bytes = std::max(statistics.event_bytes, budget_.used());
     return cancelled_ ? TileOutcome::cancelled : TileOutcome::done;
   }
@@ -288,11 +293,23 @@ class TileJob {
             process_sample(input_, static_cast<std::uint32_t>(task / strips_), strip, cells_, blocks_,
                            thread);
         });
-        report(kWalkShare * static_cast<double>(++done) / static_cast<double>(tasks));
+        const double share = static_cast<double>(++done) / static_cast<double>(tasks);
+        if (will_exceed(share)) budget_.give_up();
+        report(kWalkShare * share);
       }
       _mm_setcsr(control);
     }
     failure_.rethrow();
+  }
+
+  /// Whether there is too little room if all walks find as many events as this share of them has. The last
+  /// page of each log may be empty. A tile of one block can't be halved, and goes on.
+  [[nodiscard]] bool will_exceed(double share) const {
+    const double samples = share * static_cast<double>(input_.samples.size());
+    if (blocks_.size() == 1 || samples < kLeastSeen || share < kLeastSeenShare) return false;
+    const auto open_pages = static_cast<double>(blocks_.size() * walkers_.size() * EventLog::kPageBytes);
+    const double taken = static_cast<double>(budget_.used()) - open_pages;
+    return taken / share > static_cast<double>(budget_.limit());
   }
 
   void fit(TileStatistics& statistics) {

@@ -69,7 +69,8 @@ using TileProgress = std::function<bool(double share)>;
 enum class TileOutcome { done, events_exceeded, cancelled };
 
 /// Bakes the functions of `tile`: a pure function of its arguments. Nothing is given to `sink` when events
-/// exceed `event_limit` bytes; what a cancelled tile has given is incomplete.
+/// exceed `event_limit` bytes, or would do so if all samples had as many as the first; what a cancelled tile
+/// has given is incomplete.
 [[nodiscard]] TileOutcome bake_tile(const TileInput& input, const TexelRect& tile, std::uint32_t strips,
                                     std::uint64_t event_limit, const BlockSink& sink,
                                     const TileProgress& progress, TileStatistics& statistics);

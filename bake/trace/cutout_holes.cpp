@@ -11,6 +11,7 @@
 #include "trace/map_rays.h"
 #include "trace/mask_alpha.h"
 #include "trace/masked_triangles.h"
+#include "trace/traced_mesh.h"
 
 namespace pdsm {
 namespace {

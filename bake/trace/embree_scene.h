@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trace/light_space.h"
-#include "trace/masked_triangles.h"
+#include "trace/traced_mesh.h"
 
 namespace pdsm {
 

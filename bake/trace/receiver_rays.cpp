@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "trace/masked_triangles.h"
+#include "trace/traced_mesh.h"
 
 namespace pdsm {
 namespace {
