@@ -2,7 +2,7 @@
 #pragma once
 
 #include "evaluate/error_part.h"
-#include "evaluate/verify.h"
+#include "evaluate/probed_truth.h"
 #include "pdsm/bake/scene.h"
 
 namespace pdsm {

@@ -27,18 +27,23 @@ std::size_t shown_texel(std::int64_t texel, std::int64_t count, MaskWrap wrap) {
   return static_cast<std::size_t>(std::clamp<std::int64_t>(texel, 0, count - 1));
 }
 
+/// From 0 to 1; whole copies are taken off first, as places may be larger than any integer.
+double place_in_copy(double at, MaskWrap wrap) {
+  if (wrap == MaskWrap::clamp) return std::clamp(at, 0.0, 1.0);
+  if (wrap == MaskWrap::repeat) return at - std::floor(at);
+  return std::abs(at - 2 * std::floor(at / 2 + 0.5));
+}
+
 TexelPair texels_at(double at, std::uint32_t count, MaskWrap wrap) {
-  const double texel = place_in_copy(at, wrap) * count - 0.5;
+  const double texel = texel_at(at, count, wrap);
   const std::int64_t n = floor_of(texel);
   return {shown_texel(n, count, wrap), shown_texel(n + 1, count, wrap), texel - static_cast<double>(n)};
 }
 
 }  // namespace
 
-double place_in_copy(double at, MaskWrap wrap) {
-  if (wrap == MaskWrap::clamp) return std::clamp(at, 0.0, 1.0);
-  if (wrap == MaskWrap::repeat) return at - std::floor(at);
-  return std::abs(at - 2 * std::floor(at / 2 + 0.5));
+double texel_at(double at, std::uint32_t count, MaskWrap wrap) {
+  return place_in_copy(at, wrap) * count - 0.5;
 }
 
 double alpha_at(const CutoutMask& mask, const glm::dvec2& place) {
@@ -54,7 +59,7 @@ double alpha_at(const CutoutMask& mask, const glm::dvec2& place) {
 }
 
 bool is_solid(const CutoutMask& mask, const glm::dvec2& place) {
-  return alpha_at(mask, place) >= 255.0 * static_cast<double>(mask.cutoff);
+  return is_solid_alpha(mask, alpha_at(mask, place));
 }
 
 }  // namespace pdsm

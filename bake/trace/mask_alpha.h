@@ -7,9 +7,14 @@
 
 namespace pdsm {
 
-/// Where `at`, which is finite, lies along one axis of a copy of the mask, from 0 to 1. Whole copies are
-/// taken off, as places may be larger than any integer.
-[[nodiscard]] double place_in_copy(double at, MaskWrap wrap);
+/// Where `at`, u or v and finite, lies along that axis of a copy of the mask that has `count` texels there: 0
+/// is the centre of the first. From -1/2 to count - 1/2.
+[[nodiscard]] double texel_at(double at, std::uint32_t count, MaskWrap wrap);
+
+/// Whether a surface with this mask is there where its alpha is `alpha`, in units of 1/255.
+[[nodiscard]] inline bool is_solid_alpha(const CutoutMask& mask, double alpha) {
+  return alpha >= 255.0 * static_cast<double>(mask.cutoff);
+}
 
 /// A mask's alpha at `place` (u, v), which is finite, in units of 1/255: linear between the centres of
 /// texels. Any thread.

@@ -44,11 +44,10 @@ MaskCells::MaskCells(const CutoutMask& mask)
 MaskPart MaskCells::part_of(std::int64_t column, std::int64_t row) const {
   const std::int64_t x1 = (column + 1) * kCell, y1 = (row + 1) * kCell;
   if (x1 > mask_.width || y1 > mask_.height) return MaskPart::mixed;
-  const double cutoff = 255.0 * static_cast<double>(mask_.cutoff);
   bool any_solid = false, any_hole = false;
   for (std::int64_t y = y1 - kCell; y < y1; ++y) {
     for (std::int64_t x = x1 - kCell; x < x1; ++x) {
-      const bool solid = mask_.alpha[static_cast<std::size_t>(y * mask_.width + x)] >= cutoff;
+      const bool solid = is_solid_alpha(mask_, mask_.alpha[static_cast<std::size_t>(y * mask_.width + x)]);
       (solid ? any_solid : any_hole) = true;
     }
   }
@@ -65,8 +64,8 @@ std::uint8_t MaskCells::alike_beside(const Cell& cell, std::int64_t column, std:
 
 MaskPart MaskCells::around(const glm::dvec2& place, double radius) const {
   // In the cell of the lower left of the four texels that are looked at, of which the others are one away.
-  const double x = place_in_copy(place.x, mask_.wrap[0]) * mask_.width - 0.5,
-               y = place_in_copy(place.y, mask_.wrap[1]) * mask_.height - 0.5;
+  const double x = texel_at(place.x, mask_.width, mask_.wrap[0]),
+               y = texel_at(place.y, mask_.height, mask_.wrap[1]);
   const auto column = static_cast<std::int64_t>(std::max(x, 0.0)) / kCell,
              row = static_cast<std::int64_t>(std::max(y, 0.0)) / kCell;
   const Cell& cell = cells_[static_cast<std::size_t>(row * columns_ + column)];
