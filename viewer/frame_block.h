@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "camera_control.h"
-#include "evaluate/camera.h"
+#include "evaluate/focus.h"
 
 namespace pdsm {
 

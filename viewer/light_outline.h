@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "evaluate/camera.h"
+#include "evaluate/focus.h"
 #include "pdsm/bake/scene.h"
 
 namespace pdsm {

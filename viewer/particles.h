@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "evaluate/camera.h"
+#include "evaluate/focus.h"
 #include "gl_objects.h"
 #include "shader_program.h"
 

@@ -57,9 +57,8 @@ Stage::Stage(const std::filesystem::path& scene_file)
     : path_(scene_file),
       scene_(read_scene(scene_file)),
       picture_(scene_),
-      focus_(find_focus(scene_)),
-      camera_(default_camera(scene_, picture_, focus_)),
-      floor_(find_floor(picture_, focus_)),
-      reach_(scene_reach(scene_, focus_.centre)) {}
+      framing_(find_framing(scene_, picture_, scene_.lights)),
+      floor_(find_floor(picture_, focus())),
+      reach_(scene_reach(scene_, origin())) {}
 
 }  // namespace pdsm

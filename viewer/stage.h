@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 
-#include "evaluate/camera.h"
+#include "evaluate/framing.h"
 #include "evaluate/picture_scene.h"
 #include "pdsm/bake/scene.h"
 
@@ -22,10 +22,10 @@ class Stage {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const PictureScene& picture() const { return picture_; }
-  [[nodiscard]] const Focus& focus() const { return focus_; }
-  [[nodiscard]] const Camera& camera() const { return camera_; }
+  [[nodiscard]] const Focus& focus() const { return framing_.focus; }
+  [[nodiscard]] const Camera& camera() const { return framing_.camera; }
   /// What the GPU's positions are measured from, metres.
-  [[nodiscard]] const glm::dvec3& origin() const { return focus_.centre; }
+  [[nodiscard]] const glm::dvec3& origin() const { return framing_.focus.centre; }
   /// Height of the floor about the focus, metres of world y.
   [[nodiscard]] double floor() const { return floor_; }
   /// Distance from the origin within which all geometry and lights lie, metres.
@@ -38,8 +38,7 @@ class Stage {
   std::filesystem::path path_;
   Scene scene_;
   PictureScene picture_;
-  Focus focus_;
-  Camera camera_;
+  Framing framing_;
   double floor_ = 0, reach_ = 0;
 };
 

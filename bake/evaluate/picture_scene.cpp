@@ -50,16 +50,17 @@ std::optional<SurfacePoint> PictureScene::trace(const glm::dvec3& origin, const 
   if (query.hit.geomID >= scene_.geometry.size()) {
     const glm::vec3 across(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     const glm::vec3 normal = glm::normalize(across);
+    const Curves& curves = scene_.curves[query.hit.geomID - scene_.geometry.size()];
     return SurfacePoint{origin + static_cast<double>(query.ray.tfar) * direction,
-                        glm::dot(glm::dvec3(normal), direction) > 0 ? -normal : normal,
-                        scene_.curves[query.hit.geomID - scene_.geometry.size()].base_color};
+                        glm::dot(glm::dvec3(normal), direction) > 0 ? -normal : normal, curves.base_color,
+                        curves.casts};
   }
   // The point comes from the triangle in doubles: it lies on the surface better than the ray's end.
   const Geometry& geometry = scene_.geometry[query.hit.geomID];
   const glm::uvec3& triangle = geometry.mesh->triangles[query.hit.primID];
   const auto& corner_normals = (*normals_[query.hit.geomID])[query.hit.primID];
   const glm::vec3 weights(1 - query.hit.u - query.hit.v, query.hit.u, query.hit.v);
-  SurfacePoint point{glm::dvec3(0), glm::vec3(0), geometry.base_color};
+  SurfacePoint point{glm::dvec3(0), glm::vec3(0), geometry.base_color, geometry.casts};
   glm::vec3 local_normal(0);
   for (int c = 0; c < 3; ++c) {
     point.position +=

@@ -17,6 +17,7 @@ struct SurfacePoint {
   glm::dvec3 position;  ///< world, metres
   glm::vec3 normal;     ///< for shading: smooth, unit, towards the viewer
   glm::vec3 colour;     ///< linear RGB
+  bool casts;           ///< shadows
 };
 
 /// All geometry and curves of a scene, casting or not, to be looked at, and through its holes. Any thread may

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "evaluate/colour.h"
+#include "evaluate/framing.h"
 #include "evaluate/heat_map.h"
 #include "evaluate/studio.h"
 #include "evaluate/volume_picture.h"
@@ -67,18 +68,24 @@ struct Sample {
   float shade = 0;
 };
 
+std::vector<Light> lights_of(std::span<const PictureLight> sources) {
+  std::vector<Light> lights;
+  for (const PictureLight& source : sources) lights.push_back(*source.light);
+  return lights;
+}
+
 class Renderer {
  public:
   Renderer(const Scene& scene, std::span<const PictureLight> lights, const RenderOptions& options)
       : options_(options),
         picture_(scene),
         volumes_(scene),
-        focus_(find_focus(scene)),
-        camera_(options.camera ? *options.camera : default_camera(scene, picture_, focus_)),
+        framing_(find_framing(scene, picture_, lights_of(lights))),
+        camera_(options.camera.value_or(framing_.camera)),
         rays_(camera_, options.width, options.height) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::vec3 colour = studio_colour(i, lights.size());
-      lights_.push_back(std::make_unique<Illumination>(scene, lights[i], focus_, options, colour));
+      lights_.push_back(std::make_unique<Illumination>(scene, lights[i], framing_.focus, options, colour));
     }
   }
 
@@ -116,7 +123,7 @@ class Renderer {
     if (point) {
       sample = shade(*point);
       sample.light =
-          glm::mix(sample.light, studio_background(direction), studio_fade(focus_, point->position));
+          glm::mix(sample.light, studio_background(direction), studio_fade(framing_.focus, point->position));
       distance = glm::length(point->position - camera_.eye);
     }
     sample.light = volumes_.over(camera_.eye, direction, distance, sample.light,
@@ -166,7 +173,7 @@ class Renderer {
   RenderOptions options_;
   PictureScene picture_;
   VolumePicture volumes_;
-  Focus focus_;
+  Framing framing_;
   Camera camera_;
   CameraRays rays_;
   std::vector<std::unique_ptr<Illumination>> lights_;

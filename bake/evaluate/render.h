@@ -28,7 +28,7 @@ struct PictureLight {
 };
 
 struct RenderOptions {
-  std::optional<Camera> camera;  ///< default_camera() otherwise
+  std::optional<Camera> camera;  ///< find_framing()'s otherwise
   std::uint32_t width = 960, height = 720;
   std::uint32_t supersample = 2;  ///< rays a pixel along each axis, 1 .. 8
   ShadowSource source = ShadowSource::map;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 
-#include "evaluate/camera.h"
+#include "evaluate/focus.h"
 #include "pdsm/bake/scene.h"
 
 /// The studio in which scenes are shown: a soft sky, light that bounces off the ground, a plain background.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "evaluate/colour.h"
+#include "evaluate/framing.h"
 #include "evaluate/heat_map.h"
 #include "evaluate/render.h"
 #include "pdsm/format/map_file.h"
@@ -112,7 +113,7 @@ class DetailDrawing {
 
  private:
   void find_detail() {
-    const Camera whole = default_camera(scene_, PictureScene(scene_), find_focus(scene_));
+    const Camera whole = find_framing(scene_, PictureScene(scene_), {&sweep_.light, 1}).camera;
     const PenumbraMap map = read_map(sweep_.kept.front().file);
     const DetailPoints seen(scene_, sweep_.light, sweep_.near_depth, whole, kSearchWidth, kSearchHeight,
                             kSearchTruthSamples);

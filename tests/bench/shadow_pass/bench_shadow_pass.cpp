@@ -14,7 +14,7 @@
 
 #include "../count_argument.h"
 #include "egl_context.h"
-#include "evaluate/camera.h"
+#include "evaluate/framing.h"
 #include "evaluate/picture_scene.h"
 #include "gl_program.h"
 #include "pdsm/bake/scene_file.h"
@@ -111,8 +111,7 @@ std::vector<float> find_depths(const PictureScene& picture, const View& view) {
 
 /// The default view, from higher up, at the distance from which the map's window about fills the picture.
 Camera camera_over_window(const Scene& scene, const PictureScene& picture, const View& view) {
-  const Focus focus = find_focus(scene);
-  Camera camera = default_camera(scene, picture, focus);
+  Camera camera = find_framing(scene, picture, scene.lights).camera;
   const glm::dvec3 from = glm::normalize(glm::normalize(camera.eye - camera.target) + glm::dvec3(0, 1, 0));
   const double extent = (view.window[3] - view.window[1]) * view.far_depth;
   camera.eye = camera.target + from * (0.8 * extent / (2 * std::tan(glm::radians(camera.fov) / 2)));
