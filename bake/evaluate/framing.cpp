@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,8 +12,6 @@
 
 namespace pdsm {
 namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 /// Some hundred vertices within the focus.
 std::vector<glm::dvec3> focus_points(std::span<const Geometry> all, const Focus& focus) {
@@ -37,7 +33,7 @@ Camera orbit_camera(const Focus& focus, double azimuth, double elevation) {
   constexpr double kRoom = 0.98;
   Camera camera;
   camera.target = focus.centre - glm::dvec3(0, 0.12 * focus.radius, 0);
-  const double distance = kRoom * focus.radius / std::sin(0.5 * camera.fov * kDegrees);
+  const double distance = kRoom * focus.radius / std::sin(glm::radians(0.5 * camera.fov));
   const glm::dvec3 back(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                         std::cos(azimuth) * std::cos(elevation));
   camera.eye = camera.target + distance * back;
@@ -49,7 +45,7 @@ std::vector<Camera> cameras_around(const Focus& focus) {
   std::vector<Camera> cameras;
   for (const double elevation : {27.0, 10.0, 52.0})
     for (const double azimuth : {35.0, -35.0, 0.0, 90.0, -90.0, 145.0, -145.0, 180.0})
-      cameras.push_back(orbit_camera(focus, azimuth * kDegrees, elevation * kDegrees));
+      cameras.push_back(orbit_camera(focus, glm::radians(azimuth), glm::radians(elevation)));
   return cameras;
 }
 
@@ -93,13 +89,14 @@ std::optional<LitRoom> hidden_room(const PictureScene& picture, std::span<const 
 
 }  // namespace
 
-Framing find_framing(const Scene& scene, const PictureScene& picture, std::span<const Light> lights) {
+Framing find_framing(const Scene& scene, const PictureScene& picture, std::span<const Light> lights,
+                     const std::optional<Camera>& given) {
   const std::vector<Geometry> all = all_surfaces(scene);
   const Focus focus = focus_on_casters(all);
   const std::vector<Camera> cameras = cameras_around(focus);
   if (const std::optional<LitRoom> room = hidden_room(picture, lights, focus, cameras))
-    return {focus_on_room(*room), camera_in_room(picture, *room)};
-  return {focus, first_nearly_best(cameras, picture, focus_points(all, focus))};
+    return {focus_on_room(*room), given ? *given : camera_in_room(picture, *room)};
+  return {focus, given ? *given : first_nearly_best(cameras, picture, focus_points(all, focus))};
 }
 
 }  // namespace pdsm

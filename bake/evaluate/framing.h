@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "evaluate/camera.h"
@@ -18,8 +19,9 @@ struct Framing {
 
 /// The casters, in a three-quarter view from the first side that shows about as much of them as any. Where
 /// `lights` shine on nothing that can be seen from there, because they hang in closed rooms: the first
-/// light's room, from inside. Pure.
+/// light's room, from inside. `given`: the camera, if one is given. Pure.
 [[nodiscard]] Framing find_framing(const Scene& scene, const PictureScene& picture,
-                                   std::span<const Light> lights);
+                                   std::span<const Light> lights,
+                                   const std::optional<Camera>& given = std::nullopt);
 
 }  // namespace pdsm

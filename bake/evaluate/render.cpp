@@ -80,9 +80,8 @@ class Renderer {
       : options_(options),
         picture_(scene),
         volumes_(scene),
-        framing_(find_framing(scene, picture_, lights_of(lights))),
-        camera_(options.camera.value_or(framing_.camera)),
-        rays_(camera_, options.width, options.height) {
+        framing_(find_framing(scene, picture_, lights_of(lights), options.camera)),
+        rays_(framing_.camera, options.width, options.height) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::vec3 colour = studio_colour(i, lights.size());
       lights_.push_back(std::make_unique<Illumination>(scene, lights[i], framing_.focus, options, colour));
@@ -117,16 +116,16 @@ class Renderer {
 
   [[nodiscard]] Sample trace(double x, double y) const {
     const glm::dvec3 direction = rays_.direction(x, y);
-    const std::optional<SurfacePoint> point = picture_.trace(camera_.eye, direction);
+    const std::optional<SurfacePoint> point = picture_.trace(framing_.camera.eye, direction);
     Sample sample{studio_background(direction)};
     double distance = std::numeric_limits<double>::infinity();
     if (point) {
       sample = shade(*point);
       sample.light =
           glm::mix(sample.light, studio_background(direction), studio_fade(framing_.focus, point->position));
-      distance = glm::length(point->position - camera_.eye);
+      distance = glm::length(point->position - framing_.camera.eye);
     }
-    sample.light = volumes_.over(camera_.eye, direction, distance, sample.light,
+    sample.light = volumes_.over(framing_.camera.eye, direction, distance, sample.light,
                                  [this](const glm::dvec3& p) { return arriving(p); });
     return sample;
   }
@@ -174,7 +173,6 @@ class Renderer {
   PictureScene picture_;
   VolumePicture volumes_;
   Framing framing_;
-  Camera camera_;
   CameraRays rays_;
   std::vector<std::unique_ptr<Illumination>> lights_;
 };

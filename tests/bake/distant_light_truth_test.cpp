@@ -11,6 +11,8 @@
 
 #include "support/baked_functions.h"
 #include "support/exact_truth.h"
+#include "support/sun_disk.h"
+#include "support/truth_bounds.h"
 
 namespace pdsm::test {
 namespace {
@@ -22,25 +24,9 @@ double tangent_of(double angle) {
   return std::tan(angle / 2 * kDegrees);
 }
 
-/// Share of the disk's solid angle beyond tangent q of a line: rings at angle t from its centre, of which the
-/// arc 2 acos(q / tan t) lies beyond. The midpoint rule errs by less than 1e-6.
-double disk_beyond(double angle, double q) {
-  if (q < 0) return 1 - disk_beyond(angle, -q);
-  const double most = angle / 2 * kDegrees, least = std::atan(q);
-  constexpr int kRings = 20000;
-  double beyond = 0;
-  for (int n = 0; n < kRings; ++n) {
-    const double t = least + (most - least) * (n + 0.5) / kRings;
-    if (least < most) beyond += 2 * std::acos(q / std::tan(t)) * std::sin(t) * (most - least) / kRings;
-  }
-  return beyond / (2 * std::numbers::pi * (1 - std::cos(most)));
-}
-
 struct Setup {
   double angle;
-  Walk walk;
-  PointSet points;
-  double epsilon;
+  Method method;
 };
 
 class DistantLightTruth : public testing::TestWithParam<Setup> {
@@ -49,13 +35,7 @@ class DistantLightTruth : public testing::TestWithParam<Setup> {
 
   [[nodiscard]] static BakeOptions options(std::uint32_t width, std::uint32_t height,
                                            std::uint32_t map_scale) {
-    BakeOptions o = small_options(width, height, kSamples);
-    o.map_width = width * map_scale;
-    o.map_height = height * map_scale;
-    o.walk = GetParam().walk;
-    o.points = GetParam().points;
-    o.epsilon = GetParam().epsilon;
-    return o;
+    return method_options(GetParam().method, width, height, kSamples, map_scale);
   }
   [[nodiscard]] static double angle() { return GetParam().angle; }
 };
@@ -80,7 +60,7 @@ TEST_P(DistantLightTruth, HalfPlane) {
   add(scene, Plate{-kWide, -kWide, kWide, kWide, kFar});
   const BakedFunctions baked(scene, light, options(33, 5, 4));
   // The quad's corners lie on a grid of floats at 1000, but the edge itself is a float at 0.1.
-  const double displacement = texel_reach(GetParam().walk) * baked.map_pitch_x() + 0x1.0p-20;
+  const double displacement = texel_reach(GetParam().method.walk) * baked.map_pitch_x() + 0x1.0p-20;
   const double sampling = sampling_tolerance(2 * edge_strata(kSamples), kSamples),
                delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
   int full = 0, part = 0, lit = 0;
@@ -96,11 +76,7 @@ TEST_P(DistantLightTruth, HalfPlane) {
       }
       // Right behind the occluder, within the bias, shadow begins.
       if (z <= kOccluder + baked.report().bias + 2 * delta) continue;
-      double low = 1, high = 0;
-      for (const double depth : {z - delta, z + delta}) {
-        low = std::min(low, truth(depth, -displacement));
-        high = std::max(high, truth(depth, displacement));
-      }
+      const auto [low, high] = bound(truth, z, delta, displacement);
       ASSERT_GE(value, low - sampling - epsilon) << "texel " << i << ", z " << z;
       ASSERT_LE(value, high + sampling + epsilon) << "texel " << i << ", z " << z;
       full += low == 1;
@@ -129,7 +105,7 @@ TEST_P(DistantLightTruth, SphereAgainstItsCone) {
   const BakedFunctions baked(scene, light, options(3, 3, 24));
   // Edges are displaced by a texel's diagonal; the slope bias allows for a PDSM texel, and delays the shadow
   // of a ring: where it exceeds the way to the point, so at normals more than alpha off the ray.
-  const double moved = texel_reach(GetParam().walk) * baked.map_pitch_x() * std::sqrt(2.0);
+  const double moved = texel_reach(GetParam().method.walk) * baked.map_pitch_x() * std::sqrt(2.0);
   const double bias_reach = moved + (24 - 0.5) * baked.map_pitch_x() * std::sqrt(2.0);
   const double delta = baked.report().depth_tolerance, epsilon = baked.report().epsilon;
   const double sampling = sampling_tolerance(2 * outline_strata(kSamples), kSamples);
@@ -153,12 +129,12 @@ TEST_P(DistantLightTruth, SphereAgainstItsCone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, DistantLightTruth,
-                         testing::Values(Setup{0.53, Walk::exact, PointSet::lattice, 0.02},
-                                         Setup{0.53, Walk::midpoint, PointSet::jittered, 0},
-                                         Setup{20, Walk::exact, PointSet::jittered, 0},
-                                         Setup{20, Walk::midpoint, PointSet::lattice, 0.02},
-                                         Setup{60, Walk::exact, PointSet::lattice, 0},
-                                         Setup{60, Walk::exact, PointSet::jittered, 0.01}),
+                         testing::Values(Setup{0.53, {Walk::exact, PointSet::lattice, 0.02}},
+                                         Setup{0.53, {Walk::midpoint, PointSet::jittered, 0}},
+                                         Setup{20, {Walk::exact, PointSet::jittered, 0}},
+                                         Setup{20, {Walk::midpoint, PointSet::lattice, 0.02}},
+                                         Setup{60, {Walk::exact, PointSet::lattice, 0}},
+                                         Setup{60, {Walk::exact, PointSet::jittered, 0.01}}),
                          [](const auto& setup) { return "Case" + std::to_string(setup.index); });
 
 /// A square plate, 2 x 2, three metres above a floor, both square to the sun; then moved.

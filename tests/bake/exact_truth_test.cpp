@@ -9,41 +9,17 @@
 // Where a shadow begins, the bias delays it: between h and h + bias + 2 delta only the upper bound holds.
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "support/baked_functions.h"
 #include "support/exact_truth.h"
+#include "support/truth_bounds.h"
 
 namespace pdsm::test {
 namespace {
-
-struct Method {
-  Walk walk;
-  PointSet points;
-  double epsilon;
-};
 
 std::string method_name(const testing::TestParamInfo<Method>& method) {
   const std::string walk = method.param.walk == Walk::exact ? "Exact" : "Midpoint";
   const std::string points = method.param.points == PointSet::lattice ? "Lattice" : "Jittered";
   return walk + points + (method.param.epsilon == 0 ? "Lossless" : "Fitted");
-}
-
-/// V at depth z when all edges are moved outwards by `shift` (inwards: negative).
-using ShiftedTruth = std::function<double(double z, double shift)>;
-
-/// Bounds of a baked value, without sampling and epsilon. V is monotone in z and in the shift.
-struct Bounds {
-  double low, high;
-};
-
-Bounds bound(const ShiftedTruth& truth, double z, double delta, double shift) {
-  Bounds b{1, 0};
-  for (const double depth : {z - delta, z + delta}) {
-    b.low = std::min(b.low, truth(depth, -shift));
-    b.high = std::max(b.high, truth(depth, shift));
-  }
-  return b;
 }
 
 class ExactTruth : public testing::TestWithParam<Method> {
@@ -54,13 +30,7 @@ class ExactTruth : public testing::TestWithParam<Method> {
 
   [[nodiscard]] static BakeOptions options(std::uint32_t width, std::uint32_t height,
                                            std::uint32_t map_scale) {
-    BakeOptions o = small_options(width, height, kSamples);
-    o.map_width = width * map_scale;
-    o.map_height = height * map_scale;
-    o.walk = GetParam().walk;
-    o.points = GetParam().points;
-    o.epsilon = GetParam().epsilon;
-    return o;
+    return method_options(GetParam(), width, height, kSamples, map_scale);
   }
 
   /// Compares all depths of one texel with the truth; `displacement`: how far edges may appear moved.

@@ -10,6 +10,7 @@
 #include "evaluate/point_parts.h"
 #include "evaluate/verify.h"
 #include "plates.h"
+#include "support/sun_disk.h"
 #include "truth/light_points.h"
 #include "truth/random.h"
 #include "truth/shadow_rays.h"
@@ -25,20 +26,6 @@ constexpr double kLogFailure = 14.508657738524219;
 /// What n x n jittered samples may miss of a shape with a convex outline (Hoeffding), and rounding.
 double tolerance() {
   return std::sqrt((4 * kSide - 4) * kLogFailure / 2) / kSamples + 1e-6;
-}
-
-/// Share of the disk's solid angle beyond tangent q of a line, by rings about its centre: at most 1e-6 off.
-double disk_beyond(double angle, double q) {
-  if (q < 0) return 1 - disk_beyond(angle, -q);
-  const double most = angle / 2 * kDegrees, least = std::atan(q);
-  if (least >= most) return 0;
-  constexpr int kRings = 20000;
-  double beyond = 0;
-  for (int n = 0; n < kRings; ++n) {
-    const double t = least + (most - least) * (n + 0.5) / kRings;
-    beyond += 2 * std::acos(q / std::tan(t)) * std::sin(t);
-  }
-  return beyond * (most - least) / kRings / (2 * kPi * (1 - std::cos(most)));
 }
 
 Scene scene_of(std::vector<Geometry> geometry, const Light& light) {
@@ -86,7 +73,8 @@ TEST(DistantShadowRays, HalfPlaneIsExact) {
         // Floats of the quad's corners, at 200, move its edge by up to 2^-17; in light, by half of the
         // greatest density of a line in the disk, 1.3 / (2 most) for a metre at 4 m.
         const double rounding = 0x1.0p-16 / (z - h) / most;
-        EXPECT_NEAR(rays.attenuation(p, kSamples, 1), disk_beyond(angle, q * most), tolerance() + rounding)
+        EXPECT_NEAR(rays.attenuation(p, kSamples, 1), test::disk_beyond(angle, q * most),
+                    tolerance() + rounding)
             << angle << ", " << step << ", " << q;
       }
     }
